@@ -7,9 +7,9 @@
 
 #include "engine/denoise/denoise_identity.h"
 #include "engine/denoise/denoise_run.h"
+#include "engine/denoise/resolved_denoise.h"
 #include "engine/measure/length_scale.h"
 #include "engine/measure/remarks.h"
-#include "engine/motion/resolved_motion.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
@@ -24,26 +24,6 @@ double fraction_of_setup(int steps_to_do)
 {
     constexpr double as_steps = 3.0;
     return as_steps / (as_steps + steps_to_do);
-}
-
-/// The amount of a method, or null.
-SmoothingAmount* amount_of(DenoiseMethod& method)
-{
-    if (auto* const between = std::get_if<SmoothBetweenEdges>(&method))
-        return &between->amount;
-    auto* const rims = std::get_if<SmoothRims>(&method);
-    return rims != nullptr ? &rims->amount : nullptr;
-}
-
-/// Options whose amount is a time step, and whose lengths are in units of length.
-DenoiseOptions resolved(const DenoiseOptions& options, const PolygonMesh& mesh, std::vector<Remark>& remarks)
-{
-    LengthScale scale(mesh, run_in_parallel);
-    DenoiseOptions own = options;
-    own.motion = resolved(options.motion, mesh, scale, run_in_parallel, remarks);
-    if (SmoothingAmount* const amount = amount_of(own.method))
-        *amount = {.time_step = time_step_of(*amount, own.steps, scale)};
-    return own;
 }
 
 /// The condition with which vertices at junctions would move, for a remark; empty if they move, or if the options hold
@@ -143,7 +123,8 @@ DenoiseReport denoise(PolygonMesh& mesh, const DenoiseOptions& options, const St
     report.threads = workers.threads();
     workers.execute([&] {
         std::vector<Remark> remarks;
-        DenoiseOptions own = resolved(options, mesh, remarks);
+        LengthScale scale(mesh, run_in_parallel);
+        DenoiseOptions own = resolved(options, mesh, scale, run_in_parallel, remarks);
         Denoising(std::move(own), on_step, control).run(mesh, report);
         report.remarks.insert(report.remarks.begin(), remarks.begin(), remarks.end());
     });

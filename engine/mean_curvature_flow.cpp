@@ -74,9 +74,9 @@ class Flow::Session {
         FlowOptions options = resolved(std::move(given), mesh, scale, progress_.exec(), remarks);
         progress_.set_steps(options.steps);
         const double setup = fraction_of_setup(options, control.resume != nullptr ? control.resume->n_steps() : 0);
-        // An estimate: 0.6 of the set-up is done before the steppers are made. `prepare` counts up to four parts.
-        progress_.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
-        progress_.expect(4.0);
+        progress_.enter(FlowPhase::Cut, 0, 0.0, begin_of_steppers * setup);
+        constexpr double most_parts_of_prepare = 4.0;
+        progress_.expect(most_parts_of_prepare);
         auto prepared = prepare(mesh, std::move(options), is_observed, control, progress_);
         report.resources.threads = workers_.threads();
         report.seconds.cut = watch.lap();

@@ -17,7 +17,7 @@ class DisjointSets {
     /// At first each number is a set of its own.
     DisjointSets(Index n, const Executor& exec)
         : n_(n)
-        , towards_lowest_(uninitialised<Index>(usize(n)))
+        , towards_lowest_(uninitialised<Index>(n))
     {
         for_each(exec, n, [&](Index i) { towards_lowest_[i] = i; });
     }
@@ -68,7 +68,7 @@ class DisjointSets {
     /// For each number, the lowest number of its set.
     std::vector<Index> all_lowest(const Executor& exec)
     {
-        auto lowest = large_vector<Index>(usize(n_));
+        auto lowest = large_vector<Index>(n_);
         for_each(exec, n_, [&](Index i) { lowest[i] = find(i); });
         return lowest;
     }
@@ -78,7 +78,7 @@ class DisjointSets {
     std::pair<std::vector<Index>, Index> numbered(const Executor& exec)
     {
         const std::vector<Index> lowest = select(exec, size(), [&](Index i) { return next_of(i) == i; });
-        auto number = large_vector<Index>(usize(n_));
+        auto number = large_vector<Index>(n_);
         const auto n = static_cast<Index>(lowest.size());
         for_each(exec, n, [&](Index set) { number[lowest[set]] = set; });
         for_each(exec, size(), [&](Index i) {

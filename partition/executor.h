@@ -56,7 +56,7 @@ void for_each_block(const Executor& exec, Index n, Body&& body)
 template <class Total, class Add, class Join>
 Total reduce(const Executor& exec, Index n, const Total& empty, Add&& add, Join&& join)
 {
-    std::vector<Total> of_block(usize(n / block_size) + 1, empty);
+    std::vector<Total> of_block(n / block_size + 1, empty);
     for_each_block(exec, n, [&](Index block, Index begin, Index end) {
         Total total = empty;
         for (Index i = begin; i < end; ++i)

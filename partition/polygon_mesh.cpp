@@ -87,7 +87,7 @@ void require_valid(const PolygonMesh& mesh, const Executor& exec)
 
 std::vector<std::uint8_t> used_by_faces(const PolygonMesh& mesh, const Executor& exec)
 {
-    std::vector<std::uint8_t> is_used(usize(mesh.n_vertices()), 0);
+    std::vector<std::uint8_t> is_used(mesh.n_vertices(), 0);
     for_each(exec, mesh.n_corners(), [&](Index corner) {
         // Written only once, because threads would wait for each other's cache lines.
         const std::atomic_ref mark(is_used[mesh.face_vertices[corner]]);

@@ -3,10 +3,9 @@
 #include <iostream>
 
 #include "engine/tasks/workers.h"
-#include "partition/formats/mesh_io.h"
 #include "partition/io/input_file.h"
 #include "samples/command/compare_command.h"
-#include "samples/files/mesh_results.h"
+#include "samples/files/mesh_input.h"
 #include "samples/files/output_files.h"
 #include "samples/programs.h"
 #include "samples/report/report_json.h"
@@ -22,9 +21,7 @@ ExitStatus run_compare_program(int argc, char** argv)
     Workers workers(0);
     const auto read = [&](const std::filesystem::path& path) {
         FaultLog left_out{.of_faces_alone = true};
-        PolygonMesh mesh = read_faulty_mesh(path, left_out, workers.exec()).mesh;
-        require_faces(path, mesh.n_faces(), left_out);
-        return mesh;
+        return read_surface(path, &left_out, workers.exec()).mesh;
     };
     const PolygonMesh reference = read(command.reference);
     const PolygonMesh candidate = read(command.candidate);

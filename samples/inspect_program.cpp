@@ -7,7 +7,7 @@
 #include "partition/formats/mesh_io.h"
 #include "partition/inspection/mesh_inspection.h"
 #include "samples/command/command_line.h"
-#include "samples/files/mesh_results.h"
+#include "samples/files/mesh_input.h"
 #include "samples/programs.h"
 #include "samples/report/inspection_text.h"
 #include "samples/report/report_json.h"

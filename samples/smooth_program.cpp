@@ -14,7 +14,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <memory>
 #include <new>
 #include <optional>
 #include <span>
@@ -35,120 +34,26 @@
 #include "partition/io/input_file.h"
 #include "samples/command/smooth_command.h"
 #include "samples/files/about_file.h"
+#include "samples/files/mesh_input.h"
 #include "samples/files/mesh_results.h"
 #include "samples/files/output_files.h"
 #include "samples/options/smooth_surface.h"
-#include "samples/page/page_html.h"
-#include "samples/page/read_file_colours.h"
 #include "samples/process/interruption.h"
 #include "samples/report/report_json.h"
 #include "samples/report/report_text.h"
-#include "samples/report/schedule_files.h"
+#include "samples/report/surface_remarks.h"
 #include "samples/runs/command_run.h"
 #include "samples/runs/field_run.h"
 #include "samples/runs/long_run.h"
+#include "samples/runs/named_files.h"
+#include "samples/runs/run_reports.h"
 #include "samples/runs/smoothing_run.h"
+#include "samples/runs/step_results.h"
 #include "samples/tiles/tiled_run.h"
 
 namespace seamflow {
 
 namespace {
-
-/// The page of --html, so far the input; empty without --html.
-/// @param left_out ascending: the faces of the file that are not in the mesh.
-std::optional<PageFlow> make_page(const SmoothCommand& command, const MeshFile& file,
-                                  const std::vector<Index>& left_out)
-{
-    std::optional<PageFlow> page;
-    if (command.html.empty())
-        return page;
-    require_showable(file.mesh, command.html);
-    Workers(command.options.resources.threads).execute([&] {
-        page.emplace(std::make_shared<const PageMesh>(file.mesh, read_file_colours(command.input, file, left_out)),
-                     command.output.filename().string(), command.options.laplacian, command.options.steps,
-                     command.options.report.reference);
-    });
-    return page;
-}
-
-/// Prints every step, writes it where --every-step asks for that, and hands it to the page.
-/// @param steps what --every-step writes; empty without it.
-StepObserver make_observer(const SmoothCommand& command, const std::optional<MeshOutput>& steps,
-                           const PolygonMesh& input, double mean_edge, double& write_seconds,
-                           std::optional<PageFlow>& page, std::ostream& out, const Executor& exec)
-{
-    PolygonMesh snapshot = steps ? input : PolygonMesh{};
-    return [&command, &steps, &write_seconds, &page, &out, &exec, mean_edge, snapshot](const StepState& state) mutable {
-        if (command.verbose)
-            print_step(out, state.report, state.step, command.options.steps, mean_edge);
-        if (page)
-            page->add_step(state.step, state.positions, state.reference_positions);
-        if (!steps)
-            return;
-        const Stopwatch watch;
-        if (state.separated == nullptr)
-            snapshot.vertices = state.positions;
-        steps->write_as(command.every_step->path(state.step), snapshot, state.separated, exec,
-                        seam_distance_of(command.options.motion));
-        write_seconds += watch.seconds();
-    };
-}
-
-/// @returns remarks for the user.
-std::vector<std::string> write_results(const SmoothCommand& command, const MeshOutput& output, const PolygonMesh& mesh,
-                                       const SmoothReport& report, const Executor& exec)
-{
-    auto remarks = output.write(mesh, report.separated ? &*report.separated : nullptr, exec,
-                                seam_distance_of(command.options.motion));
-    if (!command.parts.empty())
-        write_labelled_ply(command.parts, mesh, report.cut.labels, exec);
-    return remarks;
-}
-
-/// Writes the reports on the run: report, trace and page.
-void write_reports(const SmoothCommand& command, const RunRecord& run, SmoothReport& report,
-                   std::optional<PageFlow>& page)
-{
-    if (page && !page->remark().empty())
-        report.remarks.push_back(page->remark());
-    if (!command.report.empty())
-        write_text(command.report, smooth_report_json(run, command.options, report));
-    if (!command.csv.empty())
-        write_text(command.csv, steps_csv(smooth_report_json(run, command.options, report)));
-    if (!command.trace.empty())
-        write_schedule_trace(command.trace, report);
-    if (!command.task_graph.empty())
-        write_task_graph(command.task_graph, report);
-    if (page) {
-        page->finish(report, smooth_report_json(run, command.options, report));
-        write_text(command.html, page_html(command.input.filename().string(), {&*page, 1}));
-    }
-}
-
-/// Runs the flow; errors in the mesh are reported with the name of its file.
-SmoothReport run_flow(const SmoothCommand& command, PolygonMesh& mesh, const StepObserver& on_step,
-                      const FlowControl& control)
-{
-    return about_file(command.input, [&] { return smooth_surface(mesh, command.options, on_step, control); });
-}
-
-/// Reads the mesh, settles what the flow takes, and prints both.
-/// @param left_out receives what is not read. @param whole runs since the beginning.
-/// @throws InputError, OptionError.
-MeshFile read_input(SmoothCommand& command, FaultLog& left_out, const Stopwatch& whole, RunRecord& run,
-                    const Executor& exec, std::ostream& out)
-{
-    MeshFile file = command.options.motion.strict ? read_mesh(command.input, exec)
-                                                  : read_faulty_mesh(command.input, left_out, exec);
-    require_faces(command.input, file.mesh.n_faces(), left_out);
-    read_named_files(command, file.mesh, left_out.faces_left_out);
-    about_file(command.input, [&] { resolve_amount(command, file.mesh, exec, run); });
-    run.read_seconds = whole.seconds();
-    print_input(out, run, file.mesh.n_vertices(), file.mesh.n_faces());
-    print_preset(out, run, command.chosen);
-    print_amount(out, run.scale, command.options);
-    return file;
-}
 
 /// Reads, flows and writes.
 /// @param run holds the command line.
@@ -160,26 +65,33 @@ ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     Workers workers(command.options.resources.threads);
     const Executor exec = workers.exec();
     FaultLog left_out{.of_faces_alone = true};
-    MeshFile file = read_input(command, left_out, whole, run, exec, out);
-    const MeshOutput output(command.output, file);
+    MeshFile file = read_surface(command.input, command.options.motion.strict ? nullptr : &left_out, exec);
+    read_named_files(command, file.mesh, left_out.faces_left_out);
+    about_file(command.input, [&] { resolve_amount(command, file.mesh, exec, run); });
+    run.read_seconds = whole.seconds();
+    print_input(out, run, file.mesh.n_vertices(), file.mesh.n_faces());
+    print_preset(out, run, command.chosen);
+    print_amount(out, run.scale, command.options);
+    const MeshOutput output(command.output, file, command.options.motion.weld);
     output.require_storable();
     std::optional<MeshOutput> steps;
     if (command.every_step)
-        steps.emplace(command.every_step->path(1), file).require_storable();
+        steps.emplace(command.every_step->path(1), file, command.options.motion.weld).require_storable();
     const std::vector<std::string> losses =
         output.remarks_on_input(command.input, left_out, !command.options.report.keep_gaps, exec);
-    std::optional<PageFlow> page = make_page(command, file, left_out.faces_left_out);
+    std::optional<PageFlow> page = begin_page(command, file, left_out.faces_left_out, workers);
     std::optional<SurfaceChangeMeter> change;
     if (!command.quiet || !command.report.empty() || !command.html.empty())
         change.emplace(file.mesh, exec);
     LongRun long_run(command, file, interruption, out);
     const StepObserver on_step = long_run.observing(
-        make_observer(command, steps, file.mesh, run.scale.mean_edge, run.write_seconds, page, out, exec));
+        show_and_write_steps(command, steps, file.mesh, run.scale.mean_edge, run.write_seconds, page, out, exec));
     SmoothReport report;
     try {
         FlowControl control = long_run.control();
         control.ranks = ranks;
-        report = run_flow(command, file.mesh, on_step, control);
+        report =
+            about_file(command.input, [&] { return smooth_surface(file.mesh, command.options, on_step, control); });
         if (control.resume != nullptr && command.every_step)
             report.remarks.push_back("--every-step wrote no files for the steps up to " +
                                      std::to_string(control.resume->n_steps()) + ", which an earlier run took.");
@@ -208,8 +120,10 @@ ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     if (change)
         run.surface = change->measure(file.mesh, report.mesh, command.self_intersections, exec);
     const Stopwatch writing;
-    for (const auto& remarks : {losses, write_results(command, output, file.mesh, report, exec)})
+    for (const auto& remarks : {losses, output.write(file.mesh, report.separated ? &*report.separated : nullptr, exec)})
         report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());
+    if (!command.parts.empty())
+        write_labelled_ply(command.parts, file.mesh, report.cut.labels, exec);
     run.write_seconds += writing.seconds();
     if (change) {
         remark_on_loss(command.options, run.surface, report.remarks);

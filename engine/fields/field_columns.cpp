@@ -44,6 +44,7 @@ std::vector<FieldGroup> group_columns(const Eigen::MatrixXd& fields)
 
 bool is_thin(std::span<const Index> face, const Points& positions)
 {
+    /// The area over the sum of the squared lengths of the edges.
     constexpr double thinnest = 1e-10;
     double squares = 0.0;
     Index before = face.back();
@@ -91,10 +92,17 @@ ScaledFields::ScaledFields(Eigen::MatrixXd values, const FieldGroup& group, std:
         const auto [least, most] = ranges[c];
         // Halved first, because the difference of the largest numbers would overflow.
         const double half = 0.5 * most - 0.5 * least;
-        units_[c] = half > 0.0 && std::isfinite(half)
-                        ? std::ldexp(1.0, std::clamp(std::ilogb(half) + 1 - std::ilogb(std::sqrt(time_step)),
-                                                     least_exponent, largest_exponent))
-                        : 1.0;
+        if (half > 0.0 && std::isfinite(half)) {
+            // The unit makes the values of the column spread over about √dt. Steps move positions over about this
+            // distance, and steppers, which treat columns like positions, compute updates of this size in single
+            // precision.
+            const int exponent_of_range = std::ilogb(half) + 1;
+            const int exponent_of_move = std::ilogb(std::sqrt(time_step));
+            units_[c] =
+                std::ldexp(1.0, std::clamp(exponent_of_range - exponent_of_move, least_exponent, largest_exponent));
+        } else {
+            units_[c] = 1.0;
+        }
         for (Index v = 0; v < static_cast<Index>(values_.rows()); ++v)
             values_(v, c) = group.lacks[v] == 0 ? values_(v, c) / units_[c] : 0.0;
     });
@@ -134,7 +142,9 @@ void keep_within(std::span<const ValueRange> ranges, const FieldGroup& group, Ei
 
 int n_blocks(Eigen::Index n_columns)
 {
-    return static_cast<int>((n_columns + 2) / 3);
+    // As many as positions have coordinates.
+    constexpr Eigen::Index columns_of_block = 3;
+    return static_cast<int>((n_columns + columns_of_block - 1) / columns_of_block);
 }
 
 void add_up(const FlowReport& before, FlowReport& report)
@@ -158,15 +168,15 @@ namespace {
 /// The beginning of a remark on some columns: "For 'a', 'b' and 'c': ".
 std::string about(const std::vector<Eigen::Index>& columns, std::span<const std::string> names)
 {
-    constexpr std::size_t most = 4;
+    constexpr std::size_t most_named = 4;
     std::string text = "For ";
     if (names.empty())
         text += columns.size() == 1 ? "column " : "columns ";
-    const std::size_t n_named = columns.size() > most + 1 ? most : columns.size();
+    // A single further column is named, too: "and 1 others" takes no less space.
+    const std::size_t n_named = columns.size() > most_named + 1 ? most_named : columns.size();
     for (std::size_t i = 0; i < n_named; ++i) {
         text += i == 0 ? "" : i + 1 == columns.size() ? " and " : ", ";
-        text += names.empty() ? std::to_string(columns[i])
-                              : std::string(Quoted{names[static_cast<std::size_t>(columns[i])]});
+        text += names.empty() ? std::to_string(columns[i]) : in_quotes(names[static_cast<std::size_t>(columns[i])]);
     }
     if (n_named < columns.size())
         text += fmt::format(" and {} others", columns.size() - n_named);

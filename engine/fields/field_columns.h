@@ -48,8 +48,9 @@ struct ValueRange {
 /// The range of each column of the group, over the vertices with data.
 std::vector<ValueRange> ranges_of(const Eigen::MatrixXd& fields, const FieldGroup& group, const Executor& exec);
 
-/// Columns, each divided by a power of two, which is exact, so that its values spread over about √dt. Steps move
-/// positions about as far, and steppers are made for these: the updates of columns then fit in single precision, too.
+/// Columns, each divided by its unit: a power of two, so that division is exact, with which its values spread over
+/// about √dt. Steps move positions over about this distance, and steppers, which are made for positions, compute
+/// updates of this size in single precision.
 class ScaledFields {
   public:
     /// @param values #V by the columns of the group. @param ranges of these columns (see ranges_of).
@@ -69,7 +70,7 @@ class ScaledFields {
 
   private:
     Eigen::MatrixXd values_;
-    /// Per column: the power of two by which it is divided.
+    /// Per column: its unit, by which it is divided.
     Eigen::VectorXd units_;
 };
 

@@ -22,6 +22,9 @@ namespace {
 constexpr Eigen::Index columns_of_block = 3;
 /// The largest number of columns of a call for many columns: small, so that progress is reported between calls.
 constexpr Eigen::Index columns_at_once = 192;
+/// The parts that HeatSteps::make_surface_and_plan counts as done: the surface is checked; it is made, with its
+/// vertices that move; and the approach is chosen, which `decide` counts.
+constexpr double parts_of_surface_and_plan = 3.0;
 
 }  // namespace
 
@@ -36,18 +39,19 @@ HeatSteps::HeatSteps(PolygonMesh& surface, const FlowOptions& options, Weights w
     Stopwatch watch;
     const double setup = fraction_of_setup(options);
     progress.set_steps(options.steps);
-    progress.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
-    progress.expect(3.0);
+    progress.enter(FlowPhase::Cut, 0, 0.0, begin_of_steppers * setup);
+    progress.expect(parts_of_surface_and_plan);
     make_surface_and_plan(surface);
     report.seconds.cut = watch.lap();
-    progress.enter(FlowPhase::Analyse, 0, 0.6 * setup, setup);
+    progress.enter(FlowPhase::Analyse, 0, begin_of_steppers * setup, setup);
     make_stepper_within_limit();
     report_to(plan_, *surface_, options_, {}, report);
     report.cut.labels = std::move(plan_.cut.labels);
     free_topology();
     report.seconds.analyse = watch.lap();
     report.seconds.total = report.seconds.cut + report.seconds.analyse;
-    fractions_.emplace(setup, std::max(options.steps, 1), false);
+    constexpr bool with_reference = false;
+    fractions_.emplace(setup, std::max(options.steps, 1), with_reference);
 }
 
 /// Replaces the faces by those of an intrinsic Delaunay triangulation of the same surface, if the options ask for
@@ -90,7 +94,8 @@ void HeatSteps::make_surface_and_plan(PolygonMesh& given)
                    [](Approach) {});
 }
 
-/// Makes the stepper; if its factors exceed the memory limit, one without factors, if the plan has such an alternative.
+/// Makes the stepper; if its factorisations exceed the memory limit, one without them, if the plan has such an
+/// alternative.
 void HeatSteps::make_stepper_within_limit()
 {
     try {
@@ -124,7 +129,7 @@ void HeatSteps::make_stepper()
     }
 }
 
-/// Frees the topology, except those members that conjugate gradients need.
+/// Frees the topology. Conjugate gradients keep it, except twins and junctions, which they do not need.
 void HeatSteps::free_topology()
 {
     if (!std::holds_alternative<GradientSteps>(plan_.way))
@@ -147,8 +152,8 @@ void HeatSteps::take(Eigen::Ref<Eigen::MatrixXd> fields, int n)
     }
 }
 
-/// Takes n steps with three columns.
-/// @param block #V by 3, in the order of the given surface.
+/// Takes n steps with three columns, as if they were positions.
+/// @param block #V by 3, in the order of the given surface. @param steps how the steps are counted (see DataSteps).
 void HeatSteps::take_block(Points& block, int n, DataSteps steps)
 {
     surface_->mesh.join(block);
@@ -162,12 +167,13 @@ void HeatSteps::take_block(Points& block, int n, DataSteps steps)
     surface_->mesh.take_along(block);
 }
 
-/// Takes the steps of further columns, many at a time.
+/// Takes the steps of further columns, many at a time, with the factor that earlier steps have made.
 void HeatSteps::take_at_once(Eigen::Ref<Eigen::MatrixXd> fields, int n)
 {
     for (Eigen::Index first = 0; first < fields.cols(); first += columns_at_once) {
         auto portion = fields.middleCols(first, std::min(columns_at_once, fields.cols() - first));
         const Stopwatch watch = begin_step();
+        // Vertices that are joined along seams get the mean of their values, and all of them the result.
         surface_->mesh.join(portion);
         in_sub_meshes_->take_columns(portion, n, progress_.exec());
         surface_->mesh.take_along(portion);

@@ -23,12 +23,14 @@ namespace seamflow {
 
 class SchurStepper;
 
-/// The steps of a HeatEquation, in the arena in which they are constructed.
+/// The steps of a HeatEquation: backward Euler steps (M + dt K) Xᵏ⁺¹ = M Xᵏ for columns X of values at the vertices of
+/// a surface that does not move. They run on the threads of the arena in which this is constructed.
 class HeatSteps {
   public:
     /// Decides how steps are taken, and makes the stepper.
     /// @param surface, control, progress, report must outlive this. The surface does not change.
-    /// @param options valid, with the amount on the surface.
+    /// @param options valid and resolved: time_step is dt, in squared units of length of the surface, whatever gave the
+    ///        amount of smoothing (see resolved_options.h).
     /// @throws as HeatEquation.
     HeatSteps(PolygonMesh& surface, const FlowOptions& options, Weights weights, const FlowControl& control,
               Progress& progress, FlowReport& report);

@@ -91,8 +91,9 @@ void FlowRun::free_topology()
     topology.vertex_corners = std::vector<Index>();
 }
 
-/// Begins the measurements, and makes the stepper, without factors if these exceed the memory limit and the plan has
-/// such an alternative; and the stepper of the undecomposed flow, if it is asked for.
+/// Begins the measurements, and makes the stepper; one without factorisations if these exceed the memory limit and the
+/// plan has such an alternative. Makes also the stepper of the undecomposed flow, which takes the same steps without
+/// sub-meshes for comparison, if it is asked for.
 void FlowRun::make_steppers()
 {
     const PolygonMesh& mesh = mesh_.mesh();
@@ -102,8 +103,11 @@ void FlowRun::make_steppers()
                    prepared_->curvature.empty()
                        ? measure_largest_curvature(mesh, topology_, mesh.vertices, laplacian_of(options()))
                        : largest_curvature(prepared_->curvature));
-    // An estimate: making the steppers takes the last 0.4 of the set-up, half of it for the reference if there is one.
-    progress_.enter(FlowPhase::Analyse, 0, 0.6 * setup_, options().report.reference ? 0.8 * setup_ : setup_);
+    // Where making the reference, the stepper of the undecomposed flow, begins if there is one, as a fraction of the
+    // set-up (an estimate).
+    constexpr double begin_of_reference = 0.8;
+    progress_.enter(FlowPhase::Analyse, 0, begin_of_steppers * setup_,
+                    options().report.reference ? begin_of_reference * setup_ : setup_);
     try {
         make_stepper_of_flow();
     } catch (const MemoryLimitError&) {
@@ -117,7 +121,7 @@ void FlowRun::make_steppers()
     flow_report_.seconds.analyse = watch.lap();
     flow_report_.seconds.total = flow_report_.seconds.cut + flow_report_.seconds.analyse;
     if (options().report.reference) {
-        progress_.enter(FlowPhase::Analyse, 0, 0.8 * setup_, setup_);
+        progress_.enter(FlowPhase::Analyse, 0, begin_of_reference * setup_, setup_);
         const UndecomposedSteps way{.most_iterations = options().accuracy.converge_iterations};
         StepSettings settings = settings_of(options(), way, mesh.vertices);
         settings.factors.memory_limit.reset();
@@ -173,6 +177,7 @@ void FlowRun::describe(StepReport& of_step) const
     in_mean_edges(of_step.estimated_v_max, mesh_.mesh(), stepper_->positions());
 }
 
+/// Takes the same step without sub-meshes, and measures the distance between the two surfaces.
 void FlowRun::compare(int step, StepReport& of_step)
 {
     if (!reference_)
@@ -197,22 +202,30 @@ void FlowRun::compare(int step, StepReport& of_step)
     named(name, [&] { constraints_->make_result(undecomposed_); });
 }
 
-/// All positions are at the location of the given mesh.
+/// Calls the observer, and adds two results to the state: the separated sub-meshes, a mesh in which each sub-mesh has
+/// its own copy of the vertices that it shares with others; and the positions of the undecomposed flow. The observer
+/// gets all positions as those of the given mesh. state.positions are such positions already. The two results belong to
+/// the mesh that flows, which may be a copy of the given mesh near the origin (see FlowingMesh), and are converted.
 void FlowRun::show(const StepState& state, const StepObserver& on_step) const
 {
     const PolygonMesh* separated = stepper_->separated();
     const Points* undecomposed = reference_ ? &undecomposed_ : nullptr;
-    std::optional<Points> undecomposed_there;
-    std::optional<PolygonMesh> separated_there;
+    std::optional<Points> undecomposed_of_given;
+    std::optional<PolygonMesh> separated_of_given;
     if (mesh_.is_elsewhere() && undecomposed != nullptr) {
-        mesh_.bring_back(undecomposed_there.emplace(*undecomposed));
-        undecomposed = &*undecomposed_there;
+        mesh_.bring_back(undecomposed_of_given.emplace(*undecomposed));
+        undecomposed = &*undecomposed_of_given;
     }
     if (mesh_.is_elsewhere() && separated != nullptr) {
-        mesh_.bring_back(separated_there.emplace(*separated));
-        separated = &*separated_there;
+        mesh_.bring_back(separated_of_given.emplace(*separated));
+        separated = &*separated_of_given;
     }
-    on_step({state.step, state.positions, state.report, separated, undecomposed, state.capture});
+    on_step({.step = state.step,
+             .positions = state.positions,
+             .report = state.report,
+             .separated = separated,
+             .reference_positions = undecomposed,
+             .capture = state.capture});
 }
 
 void FlowRun::complete(FlowReport& report) const

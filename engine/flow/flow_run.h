@@ -15,7 +15,8 @@
 
 namespace seamflow {
 
-/// Takes the steps of a prepared flow.
+/// Takes the steps of a prepared flow. If it is asked for, the undecomposed flow takes them, too: the same steps on the
+/// whole mesh, without sub-meshes, for comparison.
 class FlowRun final : public SurfaceRun {
   public:
     /// Makes the stepper, and that of the undecomposed flow if it is asked for.

@@ -60,7 +60,8 @@ double time_step_of(const SmoothingAmount& amount, int steps, LengthScale& scale
     }
     if (!amount.radius)
         return amount.time_step;
-    const double time_step = time_step_for_radius(scale.length_of(*amount.radius), std::max(steps, 1), filter);
+    const double radius = scale.length_of(*amount.radius);
+    const double time_step = time_step_for_radius(radius, std::max(steps, 1), filter);
     if (std::isinf(time_step))
         throw OptionError("the radius is too large: the time step that it takes is beyond what a double can hold");
     if (!std::isnormal(time_step))

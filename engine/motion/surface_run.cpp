@@ -129,8 +129,10 @@ void SurfaceRun::take_step(const StepObserver& on_step)
     report_.seconds.total += of_step.seconds + measuring;
     mesh_.move_to(after);
     if (on_step)
-        show({step, mesh_.given().vertices, of_step, nullptr, nullptr,
-              [&] { return std::make_shared<const FlowState>(capture()); }},
+        show({.step = step,
+              .positions = mesh_.given().vertices,
+              .report = of_step,
+              .capture = [&] { return std::make_shared<const FlowState>(capture()); }},
              on_step);
 }
 

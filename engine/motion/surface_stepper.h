@@ -9,8 +9,8 @@
 
 namespace seamflow {
 
-/// Moves a surface by steps, one after the other: each from Vᵏ to Vᵏ⁺¹. Belongs to the arena in which it is
-/// constructed.
+/// Moves a surface by steps, one after the other: each from positions Vᵏ to Vᵏ⁺¹. It runs on the threads of the arena
+/// in which it is constructed.
 class SurfaceStepper {
   public:
     SurfaceStepper() = default;
@@ -26,11 +26,13 @@ class SurfaceStepper {
     /// #V by 3: the positions after the last step.
     [[nodiscard]] virtual const Points& positions() const = 0;
 
-    /// Continues from an image of positions(), and of all positions that the next step needs. Afterwards positions()
-    /// are the image, up to rounding. Data on updates and errors are kept: a step makes earlier errors smaller by about
-    /// the factor by which its result is scaled back.
-    /// @param image #V by 3: positions() mapped by the similarity of each component; vertices without faces keep their
-    /// positions.
+    /// Continues from an image of positions(), and of all positions that the next step needs: after a step whose motion
+    /// is restricted to lines, or whose result is rescaled (see MotionConstraints). Afterwards positions() are the
+    /// image, up to rounding. What the stepper keeps of earlier steps besides positions, such as the update of the last
+    /// one and its estimate of the error, is not rescaled: a step of a flow that shrinks the surface makes earlier
+    /// errors smaller by about the factor by which rescaling enlarges the surface again.
+    /// @param image #V by 3: positions() mapped by the similarity of each component, or moved otherwise if there is no
+    /// similarity; vertices without faces keep their positions.
     virtual void set_positions(const Points& image, const SimilarityOfComponents& similarity) = 0;
 
     /// Saves the data that the next step needs.

@@ -41,6 +41,9 @@ struct FlowPlan {
 /// @param options as given. @param n_taken the number of steps of an earlier call, which are not taken again.
 double fraction_of_setup(const FlowOptions& options, int n_taken = 0);
 
+/// Where setting up begins to make steppers, once the plan is decided, as a fraction of the set-up (an estimate).
+inline constexpr double begin_of_steppers = 0.6;
+
 /// Decides how steps are taken, and in which sub-meshes.
 /// @param options resolved; with labels of the faces of the mesh that moves.
 /// @param earlier the approach of the steps that are continued, which is kept; empty: these are the first.

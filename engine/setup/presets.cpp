@@ -16,7 +16,7 @@
 #include "engine/options/option_traits.h"
 #include "partition/errors.h"
 #include "partition/metrics/bounding_box.h"
-#include "partition/metrics/spikes.h"
+#include "partition/metrics/edge_measures.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/surface_components.h"
 #include "partition/topology.h"

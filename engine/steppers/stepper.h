@@ -34,8 +34,8 @@ class Stepper : public SurfaceStepper {
     /// own, and without ReportOptions::keep_gaps.
     [[nodiscard]] virtual const PolygonMesh* separated() const { return nullptr; }
 
-    /// Moves some vertices, with all their copies, to positions at which the next step begins. Data on updates and
-    /// errors are kept.
+    /// Moves some vertices, with all their copies, to positions at which the next step begins. What the stepper keeps
+    /// of earlier steps besides positions stays: their updates, and its estimate of the error.
     /// @param vertices numbers below 0 are ignored. @param to #vertices by 3.
     virtual void set_vertices(std::span<const Index> vertices, const Points& to) = 0;
 

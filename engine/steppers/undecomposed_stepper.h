@@ -11,8 +11,11 @@
 
 namespace seamflow {
 
-/// Makes a stepper for backward Euler steps of the whole mesh by one factorisation: exact. It is one of those for
-/// sub-meshes, with a single one. A single sub-mesh has no Γ, at which sweeps and converged steps could differ.
+/// Makes a stepper for backward Euler steps of the whole mesh by one factorisation: exact. It is one of the steppers
+/// for meshes that are cut into sub-meshes, and its only sub-mesh is the whole mesh. There are two of these steppers,
+/// which differ in how the sub-meshes agree on Γ, the vertices that they share: in sweeps (SweepStepper) they solve
+/// once, one after the other; converged steps (SchurStepper) are iterated until they are the steps of the whole mesh. A
+/// single sub-mesh has no Γ, so that both give the same step.
 /// @param mesh, topology, progress must outlive the stepper.
 /// @param way with a tolerance only for symmetric equations: steps then report their residual.
 /// @throws ComputationError if the analysis fails; MemoryLimitError if the memory limit is too low; Cancelled.

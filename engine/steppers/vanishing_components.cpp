@@ -19,8 +19,13 @@ namespace seamflow {
 
 namespace {
 
-/// dt over the squared diagonal of a component above which the component is small. At this value masses have eleven
-/// digits left beside dt K; and the scaling neglects the square of the shape that is left, a relative error of 10⁻¹⁰.
+// For a step, a small component is replaced by an enlarged copy of itself, its enlargement. A point (a component
+// without digits of its shape) is replaced by a sphere. After the step the copy is brought back: scaled down about its
+// centre.
+
+/// dt over the squared diagonal of a component (that of its bounding box) above which the component is small. At this
+/// value masses have eleven digits left beside dt K; and the scaling neglects the square of the shape that is left, a
+/// relative error of 10⁻¹⁰.
 constexpr double small_by_steps = 1e5;
 /// A component whose diagonal is a smaller fraction of its coordinates than this is a point.
 constexpr double point_in_coordinates = 1e6 * std::numeric_limits<double>::epsilon();
@@ -55,7 +60,8 @@ Point spread_point(std::size_t i, std::size_t n)
     return 0.5 * Point(radius * std::cos(angle), radius * std::sin(angle), height);
 }
 
-/// Steps with a smaller strength may leave some of the shape of a small component.
+/// The strength of a vertex multiplies its time step, from 0 to 1. Steps with a smaller strength than this may leave
+/// some of the shape of a small component.
 constexpr double weak = 0.01;
 
 void append(std::span<const Index> list, IndexLists& lists)
@@ -163,64 +169,67 @@ void VanishingComponents::step(Stepper& stepper, const Points& before)
         return stepper.step(before);
     most_ = std::max(most_, small.size());
     Points moved = before;
-    std::vector<Pose> poses;
+    std::vector<Enlargement> enlargements;
     for (Index c = 0; c < small.size(); ++c)
-        poses.push_back(pose(small[c], moved));
+        enlargements.push_back(enlarge(small[c], moved));
     stepper.set_vertices(small.values, rows_of(moved, small.values));
     stepper.step(moved);
     moved = stepper.positions();
     for (Index c = 0; c < small.size(); ++c)
-        bring_back(small[c], poses[c], before, moved);
+        bring_back(small[c], enlargements[c], before, moved);
     stepper.set_vertices(small.values, rows_of(moved, small.values));
 }
 
-/// Brings a component to the pose in which the step is taken.
-/// @param positions #V by 3: the rows of the component are moved. @returns the pose.
-VanishingComponents::Pose VanishingComponents::pose(std::span<const Index> vertices, Points& positions) const
+/// Replaces a component by an enlarged copy, for which the step is computed.
+/// @param positions #V by 3: the rows of the component are moved. @returns the map to the copy.
+VanishingComponents::Enlargement VanishingComponents::enlarge(std::span<const Index> vertices, Points& positions) const
 {
     const Box box = box_of(positions, vertices);
     const double diagonal = box.diagonal().norm();
     const double farthest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
     // M scales with present lengths; K, if it is kept, with initial lengths.
-    const double pose_diagonal =
+    const double enlarged_diagonal =
         has_kept_lengths_ ? extent_ * (extent_ / box_of(initial_, vertices).diagonal().norm()) : extent_;
-    Pose pose{.centre = mean_of(positions, vertices)};
+    Enlargement enlargement{.centre = mean_of(positions, vertices)};
     if (diagonal > point_in_coordinates * farthest) {
-        pose.scale = std::max(pose_diagonal / diagonal, 1.0);
+        enlargement.scale = std::max(enlarged_diagonal / diagonal, 1.0);
         // About M / (dt K) is left of a shape. M / K grows with the square of the scale, or with the scale alone if K
         // is kept; the shape itself grows with the scale.
-        pose.rest = 1.0 / (pose.scale * pose.scale * (has_kept_lengths_ ? 1.0 : pose.scale));
+        const double scale = enlargement.scale;
+        enlargement.rest = 1.0 / (scale * scale * (has_kept_lengths_ ? 1.0 : scale));
     }
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const Point shape = pose.scale > 0.0 ? Point(pose.scale * (positions.row(vertices[i]) - pose.centre))
-                                             : Point(pose_diagonal * spread_point(i, vertices.size()));
-        positions.row(vertices[i]) = pose.centre + shape;
+        const Point shape = enlargement.scale > 0.0
+                                ? Point(enlargement.scale * (positions.row(vertices[i]) - enlargement.centre))
+                                : Point(enlarged_diagonal * spread_point(i, vertices.size()));
+        positions.row(vertices[i]) = enlargement.centre + shape;
     }
-    return pose;
+    return enlargement;
 }
 
-/// The weight w of the attachment, multiplied by the strength.
+/// The weight w of the attachment, with which vertex v is pulled to its initial position, multiplied by the strength.
 double VanishingComponents::weight(Index v) const
 {
     const FlowTerms& terms = equation_.terms;
     return (weights_.empty() ? terms.uniform_weight : weights_[v]) * terms.strength(v);
 }
 
-/// Brings a component back from its pose after the step.
-/// @param before the positions before the step.
-/// @param positions in: the result of the step in the pose; out: the result.
-void VanishingComponents::bring_back(std::span<const Index> vertices, const Pose& pose, const Points& before,
-                                     Points& positions) const
+/// Scales a component down after the step, which was computed for its enlarged copy, and puts its centre where the step
+/// moves the component itself.
+/// @param before the positions before the step, not enlarged.
+/// @param positions in: the result of the step for the enlarged copy; out: the result for the component.
+void VanishingComponents::bring_back(std::span<const Index> vertices, const Enlargement& enlargement,
+                                     const Points& before, Points& positions) const
 {
     // The attachment: dt times the mean weight, and the weighted mean of the initial positions.
     double pull = 0.0;
-    Point target = pose.centre;
+    Point target = enlargement.centre;
     if (equation_.terms.attaches()) {
         double total = 0.0;
         Point towards = Point::Zero();
         for (const Index v : vertices) {
             total += weight(v);
-            towards += weight(v) * (initial_.row(v) - pose.centre);
+            towards += weight(v) * (initial_.row(v) - enlargement.centre);
         }
         pull = equation_.time_step * total / static_cast<double>(vertices.size());
         if (total > 0.0)
@@ -230,12 +239,14 @@ void VanishingComponents::bring_back(std::span<const Index> vertices, const Pose
     // component.
     const Point mean = mean_of(positions, vertices);
     Point off_centre = Point::Zero();
-    if (pose.scale > 0.0)
-        off_centre = ((mean - pose.centre) * (1.0 + pull) - pull * (target - pose.centre)) / pose.scale;
-    const Point shift = (off_centre + pull * (target - pose.centre)) / (1.0 + pull);
+    if (enlargement.scale > 0.0)
+        off_centre =
+            ((mean - enlargement.centre) * (1.0 + pull) - pull * (target - enlargement.centre)) / enlargement.scale;
+    const Point shift = (off_centre + pull * (target - enlargement.centre)) / (1.0 + pull);
     for (const Index v : vertices)
-        positions.row(v) = pose.scale > 0.0 ? Point(pose.centre + shift + pose.rest * (positions.row(v) - mean))
-                                            : Point(before.row(v) + shift);
+        positions.row(v) = enlargement.scale > 0.0
+                               ? Point(enlargement.centre + shift + enlargement.rest * (positions.row(v) - mean))
+                               : Point(before.row(v) + shift);
 }
 
 std::optional<Remark> VanishingComponents::remark() const

@@ -16,9 +16,9 @@ namespace seamflow {
 /// Takes steps of surfaces whose components differ much in size. A backward Euler step shrinks a component that is
 /// small compared to √dt nearly to a point, its centroid, which does not move. But its masses are lost to rounding
 /// beside dt K, and with them the position of that point. Such a component is scaled up about its centroid before the
-/// step, and the result is scaled back: about 1 / (dt λ) is left of its shape, where the eigenvalues λ of M⁻¹ K scale
-/// with the inverse square of lengths. A component that is too small for the digits of its coordinates is treated as a
-/// point, and does not move.
+/// step (its enlargement), and the result is scaled back: about 1 / (dt λ) is left of its shape, where the eigenvalues
+/// λ of M⁻¹ K scale with the inverse square of lengths. A component that is too small for the digits of its coordinates
+/// is treated as a point, and does not move.
 class VanishingComponents {
   public:
     /// @param mesh in its state before the first step, to which an attachment pulls. The mesh, the topology, and the
@@ -41,20 +41,23 @@ class VanishingComponents {
     [[nodiscard]] std::optional<Remark> remark() const;
 
   private:
-    /// The map that brings a component to the size at which the step is taken.
-    struct Pose {
+    /// The enlargement of a component for a step: the map from the component to the enlarged copy in its place, for
+    /// which the step is computed.
+    struct Enlargement {
         /// The mean of its vertices, the fixed point of the map.
         Point centre;
-        /// The factor of lengths; 0: the component is a point.
+        /// The factor of lengths; 0: the component is a point, and its copy is a sphere.
         double scale = 0.0;
-        /// The factor by which the shape in the result of the step is multiplied.
+        /// The factor by which the shape in the result of the step is multiplied: at most 1 / scale, because the step
+        /// shrinks the component itself more than its enlarged copy.
         double rest = 0.0;
     };
     [[nodiscard]] IndexLists free_components() const;
     [[nodiscard]] IndexLists find_small(const Points& positions, double extent);
-    [[nodiscard]] Pose pose(std::span<const Index> vertices, Points& positions) const;
+    [[nodiscard]] Enlargement enlarge(std::span<const Index> vertices, Points& positions) const;
     [[nodiscard]] double weight(Index v) const;
-    void bring_back(std::span<const Index> vertices, const Pose& pose, const Points& before, Points& positions) const;
+    void bring_back(std::span<const Index> vertices, const Enlargement& enlargement, const Points& before,
+                    Points& positions) const;
 
     const PolygonMesh& mesh_;
     const Topology& topology_;

@@ -36,21 +36,24 @@ std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vect
 double robin_parameter(const SubMesh& sub_mesh, const Points& positions, const InterfaceConditions& conditions,
                        double time_step)
 {
-    // p √dt with predictions. With a good prediction the other side responds to a further movement of Γ like a half
-    // plane: the derivative is 1/√dt, so that dt p = √dt would be right for smooth surfaces. Measured on twelve meshes,
-    // Δ_A and Δ_P, a little less is better.
-    constexpr double predicted_p_in_diffusion_lengths = 0.7;
+    // p √dt for PredictedTransmission. There, the positions beyond Γ (the vertices that sub-meshes share) are predicted
+    // for Γ at rest. If the prediction is good, only the response of the other side to a movement of Γ is missing. A
+    // backward Euler step of diffusion on a half plane whose rim moves by 1 moves its points at the distance x by
+    // exp(-x/√dt). The derivative at the rim has the size 1/√dt, which is p, so that p √dt = 1 would be right for
+    // smooth surfaces. A little less is better on twelve meshes, measured with Laplacian::AlexaWardetzky and
+    // Laplacian::PtackovaVelho.
+    constexpr double p_in_diffusion_lengths = 0.7;
     if (sub_mesh.interface.vertices.empty())
         return 0.0;
-    const auto parameter = [&](const auto& kind) {
-        if constexpr (requires { kind.p; }) {
-            if (const double* const given = std::get_if<double>(&kind.p))
+    const auto parameter = [&](const auto& alternative) {
+        if constexpr (requires { alternative.p; }) {
+            if (const double* const given = std::get_if<double>(&alternative.p))
                 return *given;
-            const auto& [eta, edge] = std::get<OptimalRobin>(kind.p);
+            const auto& [eta, edge] = std::get<OptimalRobin>(alternative.p);
             return optimal_robin_parameter(sub_mesh, positions, eta, edge);
         } else {
-            return std::is_same_v<std::decay_t<decltype(kind)>, PredictedTransmission>
-                       ? predicted_p_in_diffusion_lengths / std::sqrt(time_step)
+            return std::is_same_v<std::decay_t<decltype(alternative)>, PredictedTransmission>
+                       ? p_in_diffusion_lengths / std::sqrt(time_step)
                        : 0.0;
         }
     };

@@ -8,7 +8,8 @@
 #include "engine/sweep/sweep_plan.h"
 #include "solvers/systems/sub_mesh_system.h"
 
-/// The parts of a sweep that its conditions on Γ decide.
+/// The parts of a sweep that its conditions on Γ decide. Γ are the vertices that several sub-meshes share; in a sweep,
+/// the sub-meshes solve colour by colour, each with conditions there in place of the sub-meshes on the other side.
 namespace seamflow {
 
 /// Makes the equations of a sub-mesh.
@@ -20,7 +21,8 @@ std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vect
                                               const StepSettings& settings, const InterfaceConditions& conditions,
                                               SolverWorkspace& workspace);
 
-/// The Robin parameter of a sub-mesh, in 1/length; 0 if its conditions have none.
+/// The Robin parameter p of a sub-mesh, in 1/length: the weight of the normal derivative in its conditions on Γ (see
+/// AdaptedRobin); 0 if these have none.
 /// @param positions #local by 3. @param time_step dt, in length².
 double robin_parameter(const SubMesh& sub_mesh, const Points& positions, const InterfaceConditions& conditions,
                        double time_step);

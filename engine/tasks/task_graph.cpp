@@ -164,9 +164,9 @@ void TaskGraph::Nodes::perform(const Task& task)
 struct TaskGraph::OrderedTask {
     flow::continue_msg operator()(const flow::continue_msg& message) const
     {
-        nodes->order.begin(usize(task->node));
+        nodes->order.begin(task->node);
         nodes->perform(*task);
-        nodes->order.end(usize(task->node));
+        nodes->order.end(task->node);
         return message;
     }
 
@@ -222,7 +222,7 @@ TaskGraph::Node TaskGraph::add_event(std::function<void()> body, const Scheduled
 
 void TaskGraph::signal(Node event)
 {
-    nodes_->order.come(usize(event));
+    nodes_->order.come(event);
     const std::scoped_lock lock(nodes_->mutex);
     if (nodes_->is_running)
         nodes_->start(event);
@@ -243,7 +243,7 @@ bool TaskGraph::is_ending() const
 void TaskGraph::add_dependency(Node before, Node after)
 {
     flow::make_edge(nodes_->nodes[before], nodes_->nodes[after]);
-    nodes_->order.add_dependency(usize(before), usize(after));
+    nodes_->order.add_dependency(before, after);
     if (nodes_->schedule && nodes_->task_of_node[before] >= 0)
         nodes_->schedule->dependencies.push_back({nodes_->task_of_node[before], nodes_->task_of_node[after]});
 }
@@ -270,7 +270,7 @@ void TaskGraph::run_tasks(Node root, double further_parts)
 {
     if (nodes_->progress != nullptr)
         nodes_->progress->expect(nodes_->n_tasks[root] + further_parts);
-    nodes_->order.end(usize(root));
+    nodes_->order.end(root);
     // The run ends only after every event has been signalled (see Nodes::start).
     for (Index i = 0; i < nodes_->n_events[root]; ++i)
         nodes_->graph.reserve_wait();

@@ -10,6 +10,10 @@ namespace seamflow {
 
 namespace {
 
+// The terms of this file (see SubMesh): Γ are the vertices of a sub-mesh that it shares with others and that may move.
+// A fan is a run of faces around a vertex, each sharing an edge with the next. The halo are the vertices of other
+// sub-meshes' faces that touch Γ.
+
 /// The mesh from which one sub-mesh is cut out.
 struct Whole {
     const PolygonMesh& mesh;
@@ -21,7 +25,7 @@ struct Whole {
     [[nodiscard]] Index label_of(Index corner) const { return labels[topology.face_of[corner]]; }
 };
 
-/// The local vertices that also have faces of other sub-meshes.
+/// The sub-mesh's vertices, by their local numbers, that also have faces of other sub-meshes.
 std::vector<Index> list_shared(const Topology& topology, const SubMesh& sub_mesh)
 {
     std::vector<Index> n_others(sub_mesh.n_vertices);
@@ -76,19 +80,21 @@ void localise_halo_faces(const PolygonMesh& mesh, std::span<const Index> halo_fa
     }
 }
 
-/// Fills in the fans and neighbours at one vertex of Γ, and appends it to the corrected vertices.
-/// @param neighbours scratch.
+/// Fills in the faces on both sides of Γ at one of its vertices, and its neighbours along the boundary of the sub-mesh.
+/// Appends the vertex to SubMesh::corrected, the vertices that move to the centroids of their edge neighbours after a
+/// step, to correct errors on Γ.
+/// @param v the vertex, by its number in the whole mesh. @param neighbours scratch.
 void describe_interface_vertex(const Whole& whole, const IndexSet& halo_faces, Index v, std::vector<Index>& neighbours,
                                SubMeshDraft& draft)
 {
     auto& interface = draft.sub_mesh.interface;
     const auto corners = whole.topology.corners_at(v);
-    const auto lowest =
+    const auto lowest_own =
         std::find_if(corners.begin(), corners.end(), [&](Index c) { return whole.label_of(c) == whole.own; });
     assert((whole.topology.kind[v] != VertexKind::Interior ||
             fans_at(whole.mesh, whole.topology, v, whole.labels, whole.own).size() == 1) &&
            "a repaired cut has one fan of each part around each interior vertex");
-    const auto [first, last] = ends_of_fan(whole.mesh, whole.topology, *lowest, whole.labels);
+    const auto [first, last] = ends_of_fan(whole.mesh, whole.topology, *lowest_own, whole.labels);
     interface.before.push_back(draft.vertices[first]);
     interface.after.push_back(draft.vertices[last]);
     for (const Index corner : corners) {

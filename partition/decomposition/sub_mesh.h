@@ -33,7 +33,8 @@ struct SubMeshInterface {
     [[nodiscard]] Index size() const { return static_cast<Index>(vertices.size()); }
 };
 
-/// The vertices of Γ in a sub-mesh's own part, which move to the centroids of their edge neighbours after a step.
+/// The vertices of Γ in a sub-mesh's own part that are corrected: they move to the centroids of their edge neighbours
+/// after a step.
 struct CorrectedVertices {
     /// In ascending order.
     std::vector<Index> vertices;

@@ -61,7 +61,7 @@ double in_single_precision(double value, Decimals decimals)
 void require_good_names(const std::filesystem::path& path, const FileFields& fields)
 {
     const auto refuse = [&](const std::string& name, const char* why) {
-        throw OutputError(fmt::format("{}: cannot be written: the field {} {}", path.string(), Quoted{name}, why));
+        throw OutputError(fmt::format("{}: cannot be written: the field {} {}", path.string(), in_quotes(name), why));
     };
     std::set<std::string_view> names;
     for (const std::string& name : fields.names) {
@@ -107,7 +107,7 @@ std::vector<std::string> names_of_fields(const std::filesystem::path& path, std:
     for (const std::string& name : names) {
         if (is_axis(name))
             throw InputError(fmt::format("{}: {} is a coordinate of the positions, not a field; name another property",
-                                         path.string(), Quoted{name}));
+                                         path.string(), in_quotes(name)));
         for (const std::string& field : is_there(name) ? std::vector{name} : fields_meant_by(name))
             add_once(all, field);
     }
@@ -128,7 +128,7 @@ void require_writable(const std::filesystem::path& path, const FileFields& field
         if (!infinite.empty())
             throw OutputError(fmt::format("{}: cannot be written: the field {} of vertex {} (numbered from 0) is "
                                           "infinite; give a finite number, or NaN where there is none",
-                                          path.string(), Quoted{fields.names[column]}, infinite.front()));
+                                          path.string(), in_quotes(fields.names[column]), infinite.front()));
     }
 }
 

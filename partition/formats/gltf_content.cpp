@@ -63,7 +63,7 @@ InputFile bytes_of_file(const GltfContent& content, const GltfValue& uri)
     const std::filesystem::path name = gltf_name_of(uri.text());
     if (name.empty() || name.is_absolute() || uri.text().find("://") != std::string::npos)
         uri.fail(fmt::format("names {}, which is no file beside this one; put the buffer there and name it",
-                             Quoted{uri.text()}));
+                             in_quotes(uri.text())));
     try {
         return InputFile(OpenFile(content.path().parent_path() / name, OpenFile::Packing::Keep));
     } catch (const InputError& error) {
@@ -119,7 +119,7 @@ std::uint64_t GltfValue::number() const
     std::from_chars(value_->source.data(), value_->source.data() + value_->source.size(), value);
     if (!(value >= 0.0 && value <= most) || value != std::floor(value))
         fail(fmt::format("expected a whole number of at least 0, but found {}; export the mesh again",
-                         Quoted{value_->source}));
+                         in_quotes(value_->source)));
     return static_cast<std::uint64_t>(value);
 }
 
@@ -149,7 +149,7 @@ GltfContent::GltfContent(const std::filesystem::path& path, std::string_view con
     }
     const GltfValue version = root()["asset"]["version"];
     if (version.is_there() && !version.text().starts_with("2."))
-        version.fail(fmt::format("is {}, but only glTF 2.0 is read; convert the file", Quoted{version.text()}));
+        version.fail(fmt::format("is {}, but only glTF 2.0 is read; convert the file", in_quotes(version.text())));
     const GltfValue list = root()["buffers"];
     buffers_.resize(list.size());
     if (!buffers_.empty() && !list.at(0)["uri"].is_there())

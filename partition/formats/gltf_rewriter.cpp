@@ -316,7 +316,7 @@ std::vector<std::string> remarks_on_other_files(const OutputFile& file, const Gl
     if (n == 0)
         return {};
     return {fmt::format("{} names {} beside it ({}): copy {} there from the folder of {}", file.path().string(),
-                        counted(n, "picture", "pictures"), Quoted{first}, n == 1 ? "it" : "them",
+                        counted(n, "picture", "pictures"), in_quotes(first), n == 1 ? "it" : "them",
                         content.path().string())};
 }
 

@@ -85,19 +85,19 @@ class LineFile final : public InputPosition {
     {
         const std::errc error = parse(value);
         if (error == std::errc::result_out_of_range)
-            fail("{} is too large or too small: use numbers from 0 to 2147483647", Quoted{text_});
+            fail("{} is too large or too small: use numbers from 0 to 2147483647", in_quotes(text_));
         if (error != std::errc())
-            fail("{} is not {}: write one whole number for each {}, each on a line of its own", Quoted{text_},
+            fail("{} is not {}: write one whole number for each {}, each on a line of its own", in_quotes(text_),
                  words.name, words.element);
         if (value < 0)
-            fail("{} is negative: {}", Quoted{text_}, words.negative);
+            fail("{} is negative: {}", in_quotes(text_), words.negative);
     }
 
     /// Reads the number, which must be a weight.
     void read(double& value, const NumberWords& words) const
     {
         if (parse(value) != std::errc() || !is_weight(value))
-            fail("{} is not {}: write a number of at least 0 for each {}, each on a line of its own", Quoted{text_},
+            fail("{} is not {}: write a number of at least 0 for each {}, each on a line of its own", in_quotes(text_),
                  words.name, words.element);
     }
 
@@ -162,12 +162,13 @@ std::optional<std::vector<double>> read_column(const std::filesystem::path& path
 {
     if (format_of(path) != FileFormat::Ply)
         return {};
+    const std::string name = in_quotes(property);
     const InputFile file{OpenFile(path)};
     const PlyData data = ply_data_of(path, file.content(), PlyUse::OtherData);
     const PlyElement* const vertices = data.header.element("vertex");
     if (vertices == nullptr)
         data.after_header.fail("the file has no vertices; use one with the mesh's vertices and their property {}",
-                               Quoted{property});
+                               name);
     if (vertices->count != static_cast<std::uint64_t>(n_vertices))
         data.after_header.fail_at(vertices->line,
                                   "the file has {} vertices, but the mesh has {}; use it with the mesh it belongs to",
@@ -180,7 +181,7 @@ std::optional<std::vector<double>> read_column(const std::filesystem::path& path
         [&](PlySource& source, Index, Index, const PlyProperty& declared) {
             const double number = numbers.emplace_back(source.number(declared.type));
             if (const std::string why = complaint(number); !why.empty())
-                source.position().fail("{} {}", Quoted{property}, why);
+                source.position().fail("{} {}", name, why);
         },
         [](PlySource&, Index) {});
     return numbers;

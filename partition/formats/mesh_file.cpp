@@ -74,8 +74,10 @@ std::string extensions_of(FormatGroup group)
     return choice_of(extensions);
 }
 
-FileFormat require_format(const std::filesystem::path& path)
+std::optional<FileFormat> format_of_input(const std::filesystem::path& path)
 {
+    if (is_input_stream(path))
+        return {};
     return require_format_or<InputError>(path);
 }
 

@@ -82,9 +82,10 @@ std::filesystem::path before_extension(const std::filesystem::path& path);
 /// @throws OptionError for an extension that names no format.
 FileKind kind_for_writing(const std::filesystem::path& path, const FileKind& source);
 
-/// The format that the extension of a path names.
-/// @throws InputError naming the file if it names none.
-FileFormat require_format(const std::filesystem::path& path);
+/// The format that the extension of a path to read names; nothing for a stream (see is_input_stream), whose content
+/// tells.
+/// @throws InputError naming the file if the extension names none.
+std::optional<FileFormat> format_of_input(const std::filesystem::path& path);
 
 /// "a, b or c".
 std::string choice_of(const std::vector<std::string_view>& words);

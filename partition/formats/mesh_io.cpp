@@ -2,21 +2,20 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
+#include <functional>
 #include <new>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include "partition/errors.h"
 #include "partition/formats/gltf.h"
+#include "partition/formats/mesh_source.h"
 #include "partition/formats/obj.h"
 #include "partition/formats/off.h"
 #include "partition/formats/ply.h"
-#include "partition/formats/splicing.h"
 #include "partition/formats/stl.h"
 #include "partition/io/input_file.h"
 #include "partition/io/output_file.h"
@@ -24,97 +23,6 @@
 #include "partition/io/text_scanner.h"
 
 namespace seamflow {
-
-namespace {
-
-std::uint64_t checksum(std::string_view bytes)
-{
-    return XXH3_64bits(bytes.data(), bytes.size());
-}
-
-/// Files are distinguished by a checksum of the checksums of their slices, which are computed several at a time.
-std::uint64_t checksum(std::string_view content, const Executor& exec)
-{
-    constexpr std::size_t slice = std::size_t{1} << 20;
-    std::vector<std::uint64_t> sums(content.size() / slice + 1);
-    for_each(exec, static_cast<Index>(sums.size()),
-             [&](Index i) { sums[i] = checksum(content.substr(usize(i) * slice, slice)); });
-    return checksum({reinterpret_cast<const char*>(sums.data()), sums.size() * sizeof(std::uint64_t)});
-}
-
-std::uint64_t checksum_of_faces(const PolygonMesh& mesh, const Executor& exec)
-{
-    const auto of = [&](const std::vector<Index>& list) {
-        return checksum({reinterpret_cast<const char*>(list.data()), list.size() * sizeof(Index)}, exec);
-    };
-    // The factor keeps equal differences in the two lists from cancelling each other.
-    return of(mesh.face_offsets) + 3 * of(mesh.face_vertices);
-}
-
-}  // namespace
-
-/// A mesh file that has been read, kept open and not in memory, so that it can serve as the template for a file with
-/// other positions. Renaming, replacing or removing it does no harm; a change within it is detected.
-class MeshSource {
-  public:
-    /// @param file, content the file that was read, and its content. @param mesh, kind the mesh read from it, and its
-    /// kind.
-    MeshSource(OpenFile file, std::string_view content, const PolygonMesh& mesh, const FileKind& kind,
-               const Executor& exec)
-        : file_(std::move(file))
-        , kind_(kind)
-        , content_checksum_(checksum(content, exec))
-        , n_vertices_(mesh.n_vertices())
-        , n_faces_(mesh.n_faces())
-        , faces_checksum_(checksum_of_faces(mesh, exec))
-    {
-    }
-
-    /// The path under which the file was read, for messages.
-    [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
-
-    [[nodiscard]] const FileKind& kind() const { return kind_; }
-
-    /// Reads the file again.
-    /// @throws InputError if it no longer holds the same bytes.
-    [[nodiscard]] InputFile read_again(const Executor& exec) const;
-
-    /// Checks that the mesh has as many vertices as the file, and the same faces.
-    /// @param path of the file to write, for the message.
-    /// @throws OutputError
-    void require_same_faces(const std::filesystem::path& path, const PolygonMesh& mesh, const Executor& exec) const;
-
-  private:
-    OpenFile file_;
-    FileKind kind_;
-    std::uint64_t content_checksum_;
-    Index n_vertices_;
-    Index n_faces_;
-    std::uint64_t faces_checksum_;
-};
-
-InputFile MeshSource::read_again(const Executor& exec) const
-{
-    InputFile input(file_);
-    if (checksum(input.content(), exec) != content_checksum_)
-        throw InputError(changed_since_read(path()));
-    return input;
-}
-
-void MeshSource::require_same_faces(const std::filesystem::path& path, const PolygonMesh& mesh,
-                                    const Executor& exec) const
-{
-    std::string difference;
-    if (mesh.n_vertices() != n_vertices_ || mesh.n_faces() != n_faces_)
-        difference = fmt::format("{} vertices and {} faces, but that file {} and {}", mesh.n_vertices(), mesh.n_faces(),
-                                 n_vertices_, n_faces_);
-    else if (checksum_of_faces(mesh, exec) != faces_checksum_)
-        difference = "other faces than that file";
-    if (!difference.empty())
-        throw OutputError(
-            fmt::format("{}: cannot be written in the form of {}: the mesh has {}; write it without that form",
-                        path.string(), file_.path().string(), difference));
-}
 
 namespace {
 
@@ -245,7 +153,7 @@ MeshFile read_whole(OpenFile open, const InputFile& input, FileFormat format, co
 /// Finds the format and reads; a lack of memory is reported with the name of the file.
 MeshFile read(const std::filesystem::path& path, const Executor& exec, FaultLog* faults)
 {
-    auto format = is_input_stream(path) ? std::nullopt : std::optional(require_format(path));
+    std::optional<FileFormat> format = format_of_input(path);
     try {
         OpenFile open(path);
         const InputFile input(open);
@@ -275,13 +183,6 @@ void require_encoding(const FileKind& kind)
     throw OptionError(fmt::format("encoding must be {} for {} files", choice_of(names), format.name));
 }
 
-[[noreturn]] void refuse_fields(const std::filesystem::path& path, FileFormat format)
-{
-    throw OutputError(fmt::format("{}: cannot be written: {} files made here hold no fields of vertices; write a .ply "
-                                  "file, which holds any",
-                                  path.string(), traits_of(format).name));
-}
-
 /// Checks that the written file can be read again.
 void require_readable(const std::filesystem::path& path, const PolygonMesh& mesh, const Executor& exec)
 {
@@ -294,21 +195,40 @@ void require_readable(const std::filesystem::path& path, const PolygonMesh& mesh
     }
 }
 
+/// Checks that a mesh and its fields can be written.
+/// @param holds_fields whether files of this format, written in this way, have fields.
+void require_mesh_and_fields(const std::filesystem::path& path, const PolygonMesh& mesh, const FileFields& fields,
+                             FileFormat format, bool holds_fields, const Executor& exec)
+{
+    require_readable(path, mesh, exec);
+    require_writable(path, fields, mesh.n_vertices(), exec);
+    if (!holds_fields && !fields.names.empty())
+        throw OutputError(fmt::format("{}: cannot be written: {} files made here hold no fields of vertices; write a "
+                                      ".ply file, which holds any",
+                                      path.string(), traits_of(format).name));
+}
+
 /// @param element the name of an element. @param n the number of elements.
 void require_one_for_each(const std::filesystem::path& path, std::size_t count, const std::string& what, Index n,
                           const char* element, const char* elements)
 {
-    if (count != usize(n))
+    if (std::cmp_not_equal(count, n))
         throw OutputError(fmt::format("{}: cannot be written: there are {} {} for {} {}; give one for each {}",
                                       path.string(), count, what, n, elements, element));
+}
+
+/// Writes a file, which appears when it is complete, or not at all.
+void write_whole(const std::filesystem::path& path, const std::function<void(OutputFile& file)>& write)
+{
+    OutputFile file(path);
+    write(file);
+    file.commit();
 }
 
 void write_with_extras(const std::filesystem::path& path, const PolygonMesh& mesh, const PlyExtras& extras,
                        const Executor& exec)
 {
-    OutputFile file(path);
-    write_ply(file, mesh, Encoding::BinaryLittleEndian, {exec}, extras);
-    file.commit();
+    write_whole(path, [&](OutputFile& file) { write_ply(file, mesh, Encoding::BinaryLittleEndian, {exec}, extras); });
 }
 
 }  // namespace
@@ -334,19 +254,16 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Pol
 {
     const Format& format = functions_of(kind.format);
     require_encoding(kind);
-    require_readable(path, mesh, exec);
-    require_writable(path, fields, mesh.n_vertices(), exec);
+    require_mesh_and_fields(path, mesh, fields, kind.format, kind.format == FileFormat::Ply, exec);
     std::vector<std::string> remarks;
     if (format.require_fits != nullptr)
         remarks = format.require_fits(path, mesh, kind.encoding);
-    OutputFile file(path);
-    if (fields.names.empty())
-        format.write(file, mesh, kind.encoding, {exec});
-    else if (kind.format == FileFormat::Ply)
-        write_ply(file, mesh, kind.encoding, {exec}, fields);
-    else
-        refuse_fields(path, kind.format);
-    file.commit();
+    write_whole(path, [&](OutputFile& file) {
+        if (fields.names.empty())
+            format.write(file, mesh, kind.encoding, {exec});
+        else
+            write_ply(file, mesh, kind.encoding, {exec}, fields);
+    });
     return remarks;
 }
 
@@ -360,16 +277,14 @@ std::vector<std::string> write_mesh_like(const MeshSource& source, const std::fi
                                          const PolygonMesh& mesh, const FileFields& fields, const Executor& exec,
                                          double seam_distance)
 {
-    require_readable(path, mesh, exec);
-    source.require_same_faces(path, mesh, exec);
-    require_writable(path, fields, mesh.n_vertices(), exec);
     const Format& format = functions_of(source.kind().format);
-    if (format.read_fields == nullptr && !fields.names.empty())
-        refuse_fields(path, source.kind().format);
+    require_mesh_and_fields(path, mesh, fields, source.kind().format, format.read_fields != nullptr, exec);
+    source.require_same_faces(path, mesh, exec);
     const InputFile input = source.read_again(exec);
-    OutputFile file(path);
-    auto remarks = format.rewrite(file, source.path(), input.content(), mesh, {exec}, fields, seam_distance);
-    file.commit();
+    std::vector<std::string> remarks;
+    write_whole(path, [&](OutputFile& file) {
+        remarks = format.rewrite(file, source.path(), input.content(), mesh, {exec}, fields, seam_distance);
+    });
     return remarks;
 }
 

@@ -123,7 +123,7 @@ void ObjReader::require_attributes(std::string_view attributes)
         if (slashes > 2 || (c != '/' && c != '-' && c != '+' && (c < '0' || c > '9')))
             scanner_.fail("expected a corner as in 7, 7/1, 7//2 or 7/1/2, but found {} after the vertex number; "
                           "correct the face or export the mesh again",
-                          Quoted{attributes});
+                          in_quotes(attributes));
     }
 }
 

@@ -148,7 +148,7 @@ TextColours read_off_colours(const std::filesystem::path& path, std::string_view
     if (!header.has_colours())
         scanner.fail(
             "the keyword {} announces no colours of vertices; write them behind the coordinates, and the keyword COFF",
-            Quoted{std::string(header.prefix) + "OFF"});
+            in_quotes(std::string(header.prefix) + "OFF"));
     return read_text_colours(scanner, slicing, [&](const std::vector<std::string_view>& slices, const Executor& exec) {
         const std::vector<std::int64_t> lines_before = count_lines(scanner, slices, exec);
         TextColours colours(static_cast<Index>(header.n_vertices), 4);

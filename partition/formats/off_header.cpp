@@ -21,7 +21,7 @@ void require_known_variant(const TextScanner& scanner, std::string_view prefix)
     if (prefix.find_first_of("4n") != std::string_view::npos)
         scanner.fail(
             "{} files, whose vertices do not have just three coordinates, cannot be read; convert the mesh to OFF",
-            Quoted{std::string(prefix) + "OFF"});
+            in_quotes(std::string(prefix) + "OFF"));
     constexpr std::array<std::string_view, 3> parts = {"ST", "C", "N"};
     std::array<int, 3> n_found{};
     std::string_view left = prefix;
@@ -35,7 +35,7 @@ void require_known_variant(const TextScanner& scanner, std::string_view prefix)
     }
     if (!left.empty())
         scanner.fail("the keyword {} is unknown; convert the mesh to OFF, COFF or NOFF",
-                     Quoted{std::string(prefix) + "OFF"});
+                     in_quotes(std::string(prefix) + "OFF"));
 }
 
 /// Reads the keyword OFF with its prefix. Counts may follow OFF without a blank.
@@ -51,7 +51,7 @@ std::string_view read_keyword(TextScanner& scanner)
     if (off == std::string_view::npos || (word.size() > off + 3 && !is_digit(word[off + 3])))
         scanner.fail(
             "the file begins with {} and not with OFF; if it has another format, give it that format's extension",
-            Quoted{word});
+            in_quotes(word));
     const std::string_view prefix = word.substr(0, off);
     require_known_variant(scanner, prefix);
     scanner.skip(off + 3);
@@ -102,7 +102,7 @@ OffHeader read_off_header(TextScanner& scanner)
     if (scanner.has_token() && !scanner.crosses_lines())
         scanner.fail("expected the end of the line after the numbers of vertices, faces and edges, but found {}; "
                      "correct the header",
-                     Quoted{scanner.peek()});
+                     in_quotes(scanner.peek()));
     return header;
 }
 

@@ -28,7 +28,7 @@ Eigen::MatrixXd read_columns(const PlyData& data, const FileFields& fields, cons
     const std::vector<PlySlice> slices = data.slices(data.up_to(vertices), slicing);
     std::vector<std::string> words;
     for (const std::string& name : fields.names)
-        words.push_back(fmt::format("the number {}", Quoted{name}));
+        words.push_back(fmt::format("the number {}", in_quotes(name)));
     Eigen::MatrixXd values(static_cast<Index>(vertices.count), static_cast<Index>(words.size()));
     for_each(slicing.exec, static_cast<Index>(slices.size()), [&](Index i) {
         data.scan(
@@ -65,7 +65,7 @@ FileFields find_fields(const PlyData& data, std::span<const std::string> names)
             throw InputError(fmt::format(
                 "{}: {} is a property of the faces, but fields are of the vertices: give each vertex the mean of "
                 "its faces, or name a property of the vertices",
-                data.path.string(), Quoted{name}));
+                data.path.string(), in_quotes(name)));
         require_number(data.after_header, vertices, name);
         const PlyType type = vertices.property(name)->type;
         fields.whole.push_back(whole_range_of(type));

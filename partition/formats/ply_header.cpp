@@ -42,7 +42,7 @@ PlyType read_type(TextScanner& scanner)
     if (found == named_types.end())
         scanner.fail(
             "expected a type (char, uchar, short, ushort, int, uint, float, double), but found {}; correct the header",
-            Quoted{name});
+            in_quotes(name));
     return found->type;
 }
 
@@ -53,7 +53,7 @@ std::string read_new_name(TextScanner& scanner, const auto& declared, const char
     if (name.empty())
         scanner.fail("expected the name of the {}, but the line ends; correct the header", what);
     if (std::any_of(declared.begin(), declared.end(), [&](const auto& d) { return d.name == name; }))
-        scanner.fail("the {} {} is declared twice; remove or rename one", what, Quoted{name});
+        scanner.fail("the {} {} is declared twice; remove or rename one", what, in_quotes(name));
     return name;
 }
 
@@ -64,7 +64,7 @@ Encoding read_encoding(TextScanner& scanner)
         return static_cast<Encoding>(found - ply_encodings.begin());
     scanner.fail(
         "expected the format ascii, binary_little_endian or binary_big_endian, but found {}; correct the header",
-        Quoted{name});
+        in_quotes(name));
 }
 
 PlyElement read_element(TextScanner& scanner, const PlyHeader& header)
@@ -114,12 +114,12 @@ void require_room(const TextScanner& scanner, const PlyHeader& header)
         const std::uint64_t least = shortest(element, header.encoding);
         if (element.count > 0 && least == 0)
             scanner.fail_at(element.line, "the element {} has no properties; remove it or declare its properties",
-                            Quoted{element.name});
+                            in_quotes(element.name));
         if (element.count > 0 && element.count > room / least)
             scanner.fail_at(element.line,
                             "announces {} elements {}, but the {} bytes after the header cannot hold so many; the "
                             "file has been cut off, or the header is wrong: export or copy the mesh again",
-                            element.count, Quoted{element.name}, scanner.rest().size());
+                            element.count, in_quotes(element.name), scanner.rest().size());
     }
 }
 
@@ -188,7 +188,7 @@ void require_number(const TextScanner& scanner, const PlyElement& vertices, std:
     for (const PlyProperty& p : vertices.properties)
         names += (names.empty() ? "" : ", ") + p.name;
     scanner.fail_at(found == nullptr ? vertices.line : found->line,
-                    "the vertices have no number {}, but {}; name the property to use", Quoted{name}, names);
+                    "the vertices have no number {}, but {}; name the property to use", in_quotes(name), names);
 }
 
 PlyHeader read_ply_header(TextScanner& scanner)
@@ -198,7 +198,7 @@ PlyHeader read_ply_header(TextScanner& scanner)
     if (!scanner.next_line() || scanner.peek() != "ply")
         scanner.fail(
             "the file begins with {} and not with ply; if it has another format, give it that format's extension",
-            Quoted{scanner.peek()});
+            in_quotes(scanner.peek()));
     while (scanner.next_line()) {
         const auto keyword = scanner.token();
         if (keyword == "end_header") {
@@ -217,7 +217,7 @@ PlyHeader read_ply_header(TextScanner& scanner)
             header.elements.back().properties.push_back(std::move(property));
         } else if (keyword != "comment" && keyword != "obj_info") {
             scanner.fail("the header line {} is unknown; remove it, or write 'comment' in front of it",
-                         Quoted{keyword});
+                         in_quotes(keyword));
         }
     }
     scanner.fail("the file ends within its header, before the line end_header; export or copy the mesh again");

@@ -87,8 +87,8 @@ Change change_of_field(const PlyProperty& property, Index column, const FileFiel
                        const std::filesystem::path& target, std::vector<std::string>& remarks)
 {
     const auto refuse = [&](const char* why) {
-        throw OutputError(
-            fmt::format("{}: cannot be written: the property {} is {}", target.string(), Quoted{property.name}, why));
+        throw OutputError(fmt::format("{}: cannot be written: the property {} is {}", target.string(),
+                                      in_quotes(property.name), why));
     };
     const auto values = fields.values.col(column);
     const bool is_whole = is_integer(property.type);
@@ -121,7 +121,7 @@ std::vector<std::string> add_fields(std::vector<Change>& changes, const PlyEleme
         changes[property - vertices.properties.data()] = change_of_field(*property, column, fields, target, remarks);
         const auto values = fields.values.col(column);
         if (is_integer(property->type) && (values.array() != values.array().round()).any())
-            rounded += fmt::format("{}{}", rounded.empty() ? "" : ", ", Quoted{property->name});
+            rounded += fmt::format("{}{}", rounded.empty() ? "" : ", ", in_quotes(property->name));
     }
     if (!rounded.empty())
         remarks.push_back("the values of " + rounded +

@@ -58,7 +58,7 @@ void PlySource::begin_line(const PlyElement& element, std::uint64_t i)
     if (!text().next_line())
         text().fail("the file ends after {} of {} elements {}; it has been cut off, or the header is wrong: export or "
                     "copy the mesh again",
-                    i, element.count, Quoted{element.name});
+                    i, element.count, in_quotes(element.name));
 }
 
 /// Checks that the line ends; further words are a harmless fault, and are passed over.
@@ -68,7 +68,7 @@ void PlySource::end_line()
         return;
     text().harmless_fault(fmt::format(
         "the line continues with {} after all the properties that the header declares; correct the header or the line",
-        Quoted{text().peek()}));
+        in_quotes(text().peek())));
     text().pass_over_rest();
 }
 
@@ -106,7 +106,7 @@ std::string_view PlySource::behind()
 
 void PlySource::refuse_length(const PlyProperty& list, std::int64_t n) const
 {
-    position().fail("the length of the list {} is {}; export the {} again", Quoted{list.name}, n, what_);
+    position().fail("the length of the list {} is {}; export the {} again", in_quotes(list.name), n, what_);
 }
 
 void PlySource::refuse_room(std::int64_t n) const

@@ -125,7 +125,7 @@ std::string changed_since_read(const std::filesystem::path& source)
 std::string clamping_remark(std::string_view name, std::string_view range)
 {
     return fmt::format("some values of {} are beyond the range {} and are written as its least or largest number",
-                       Quoted{name}, range);
+                       in_quotes(name), range);
 }
 
 std::string rounding_remark(const std::filesystem::path& source)

@@ -26,15 +26,15 @@ void next_stl_line(TextScanner& scanner, std::string_view keyword)
 {
     if (!scanner.next_line())
         scanner.fail("the file ends where {} should follow; it has been cut off: export or copy the mesh again",
-                     Quoted{keyword});
+                     in_quotes(keyword));
 }
 
 void pass_over_keyword(TextScanner& scanner, std::string_view keyword)
 {
     const auto token = scanner.token();
     if (!is_keyword(token, keyword))
-        scanner.fail("expected {}, but found {}; correct the line or export the mesh again", Quoted{keyword},
-                     token.empty() ? "the end of the line" : std::string(Quoted{token}));
+        scanner.fail("expected {}, but found {}; correct the line or export the mesh again", in_quotes(keyword),
+                     token.empty() ? "the end of the line" : in_quotes(token));
 }
 
 bool is_end_of(TextScanner& scanner, std::string_view what)
@@ -67,7 +67,7 @@ void end_stl_corner(TextScanner& scanner)
     if (scanner.has_token())
         scanner.fail("expected the end of the line after the three coordinates, but found {}; put each vertex on a "
                      "line of its own",
-                     Quoted{scanner.peek()});
+                     in_quotes(scanner.peek()));
 }
 
 std::vector<std::string_view> stl_slices_at_facets(const TextScanner& whole, std::size_t bytes)

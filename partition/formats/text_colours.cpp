@@ -68,7 +68,7 @@ void ColourReader::colour(Index v, TextScanner& scanner, std::size_t n_behind) c
     for (std::size_t k = 0; k < colour.count; ++k) {
         if (std::isnan(colour.numbers[k].value))
             scanner.fail("expected a colour, but found {}; write a finite number such as 0.5 or 128",
-                         Quoted{colour.numbers[k].part});
+                         in_quotes(colour.numbers[k].part));
         colours(v, static_cast<Index>(k)) = colour.numbers[k].value;
     }
 }
@@ -81,7 +81,7 @@ FileFields fields_of_colours(const std::filesystem::path& path, std::span<const 
         if (!is_colour(name))
             throw InputError(fmt::format("{}: the vertices have no number {}, but at most the colours red, green, blue "
                                          "and alpha; name one of these, or convert the mesh and its data to PLY",
-                                         path.string(), Quoted{name}));
+                                         path.string(), in_quotes(name)));
     const TextColours colours = read(fields.column(colour_names.back()) >= 0 ? 4 : 3);
     fields.values.resize(colours.rows(), static_cast<Index>(fields.names.size()));
     for (std::size_t k = 0; k < colour_names.size(); ++k)
@@ -102,7 +102,7 @@ NewColours::NewColours(const std::filesystem::path& target, const FileFields& fi
         if (!is_colour(name))
             throw OutputError(fmt::format(
                 "{}: cannot be written: the format has no place for the field {}; write a .ply file, which holds any",
-                target.string(), Quoted{name}));
+                target.string(), in_quotes(name)));
     if (fields.values.hasNaN())
         throw OutputError(target.string() + ": cannot be written: a colour is not a number; give each vertex a colour");
     std::ranges::transform(colour_names, columns_.begin(), [&](auto name) { return fields.column(name); });

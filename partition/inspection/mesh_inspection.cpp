@@ -11,7 +11,7 @@
 #include "partition/connected_components.h"
 #include "partition/index_lists.h"
 #include "partition/metrics/bounding_box.h"
-#include "partition/metrics/spikes.h"
+#include "partition/metrics/edge_measures.h"
 #include "partition/point_numbers.h"
 #include "partition/repeated_faces.h"
 #include "partition/vector_area.h"
@@ -99,9 +99,8 @@ EdgeLengths measure_edges(const Surface& s)
 
 /// Sets `box` and `bits_for_detail`.
 /// @param found with edge lengths.
-void measure_box(const PolygonMesh& mesh, const Executor& exec, MeshInspection& found)
+void measure_box(const BoundingBox& box, MeshInspection& found)
 {
-    const BoundingBox box = box_of_faces(mesh, exec);
     const auto& [low, high] = box;
     const Point middle = low + (high - low) / 2.0;
     found.box.middle = {middle[0], middle[1], middle[2]};
@@ -208,7 +207,8 @@ MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const 
         found.cracks = find_cracks(mesh, topology, exec);
     }
     found.edge_lengths = measure_edges(surface);
-    measure_box(mesh, exec, found);
+    const BoundingBox box = box_of_faces(mesh, exec);
+    measure_box(box, found);
     found.defects.vertices_not_finite =
         select(exec, mesh.n_vertices(), [&](Index v) { return !mesh.vertices.row(v).allFinite(); });
     const auto of_kind = [&](VertexKind kind) {
@@ -216,7 +216,7 @@ MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const 
     };
     found.defects.non_manifold_vertices = of_kind(VertexKind::NonManifold);
     found.defects.isolated_vertices = of_kind(VertexKind::Isolated);
-    found.defects.far_vertices = far_from_faces(mesh, found.defects.isolated_vertices, exec);
+    found.defects.far_vertices = far_from_faces(box, mesh.vertices, found.defects.isolated_vertices);
     found.orientable = is_orientable(surface);
     inspect_duplicates(surface, exec, found);
     for (const Spike& spike : find_spikes(mesh, mesh.vertices, exec))

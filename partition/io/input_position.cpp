@@ -43,7 +43,7 @@ std::string printable(std::string_view text)
     return text.size() > longest ? result + "…" : result;
 }
 
-Quoted::operator std::string() const
+std::string in_quotes(std::string_view text)
 {
     return fmt::format("'{}'", printable(text));
 }

@@ -56,13 +56,8 @@ class InputPosition {
 /// A piece of a file for a message: shortened, and with '?' for unprintable bytes.
 std::string printable(std::string_view text);
 
-/// A piece of a file for a message, which fmt::format writes as `printable` does, in quotation marks.
-struct Quoted {
-    std::string_view text;
-
-    /// The piece as it is written.
-    operator std::string() const;
-};
+/// A piece of a file for a message, as `printable` gives it, in quotation marks.
+std::string in_quotes(std::string_view text);
 
 /// A count and the word for the counted things: "1 vertex", "3 vertices".
 std::string counted(std::uint64_t count, const std::string& singular, const std::string& plural);
@@ -74,17 +69,3 @@ std::string lower_case(std::string_view text);
 void add_once(std::vector<std::string>& list, std::string_view what);
 
 }  // namespace seamflow
-
-namespace fmt {
-
-/// Lets fmt::format write a Quoted as its text in quotation marks.
-template <>
-struct formatter<seamflow::Quoted> : formatter<std::string_view> {
-    template <class Context>
-    auto format(const seamflow::Quoted& quoted, Context& context) const
-    {
-        return formatter<std::string_view>::format(std::string(quoted), context);
-    }
-};
-
-}  // namespace fmt

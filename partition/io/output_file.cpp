@@ -207,7 +207,7 @@ void OutputFile::slices(Index n, const Executor& exec, const std::function<void(
     };
     flush();
     constexpr Index at_once = 32;
-    std::vector<Slice> round(usize(std::min(n, at_once)));
+    std::vector<Slice> round(std::min(n, at_once));
     // Each round writes the output of the previous one, because its offset is known only then.
     for (Index begin = 0; begin < n + at_once; begin += at_once) {
         for_each(exec, static_cast<Index>(round.size()), [&](Index i) {

@@ -19,8 +19,8 @@ bool is_blank(char c)
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/// The line break: CR if the first line ends with CR and the text has no LF, or only the first line counts; otherwise
-/// LF.
+/// The character that ends each line: CR (carriage return) if the first line ends with CR, but not with CR LF, and
+/// either the text has no LF (line feed) or the first line decides; otherwise LF.
 char line_break_of(std::string_view text, bool first_line_end_decides)
 {
     const auto first = text.find_first_of("\r\n");
@@ -30,7 +30,7 @@ char line_break_of(std::string_view text, bool first_line_end_decides)
     return feed == std::string_view::npos || (first_line_end_decides && feed > first + 1) ? '\r' : '\n';
 }
 
-/// The beginning of a number: a plus sign is skipped, because from_chars does not accept it.
+/// The beginning of a number in [first, last): a plus sign is skipped, because from_chars does not accept it.
 const char* after_plus(const char* first, const char* last)
 {
     return last - first > 1 && *first == '+' && first[1] != '-' ? first + 1 : first;
@@ -70,6 +70,7 @@ TextScanner::TextScanner(const std::filesystem::path& path, std::string_view tex
 TextScanner::TextScanner(const TextScanner& whole, std::string_view slice, std::size_t lines_before)
     : TextScanner(whole)
 {
+    // Slices are read at the same time, for which a FaultLog is not made: faults in this one are thrown, not collected.
     note_faults_in(nullptr);
     cursor_ = line_end_ = next_ = slice.data();
     end_ = slice.data() + slice.size();
@@ -154,6 +155,7 @@ bool TextScanner::next_line()
     return false;
 }
 
+/// Whether no character of a token is at c: a blank, or the end of the line.
 bool TextScanner::ends_token(const char* c) const
 {
     return c == line_end_ || is_blank(*c);
@@ -181,8 +183,10 @@ std::string_view TextScanner::rest_of_token() const
 
 std::string_view TextScanner::next_keyword()
 {
-    if (!may_be_plain() || is_blank(*next_))
-        return next_line() ? token() : std::string_view();
+    const auto find_keyword = [this] { return next_line() ? token() : std::string_view(); };
+    // The short way is for a keyword at the very beginning of a line that neither continues another nor is continued.
+    if (!next_line_stands_alone() || is_blank(*next_))
+        return find_keyword();
     const char* const first = next_;
     const char* const next = end_of_line(first);
     const char* end = next;
@@ -191,9 +195,9 @@ std::string_view TextScanner::next_keyword()
     const char* last = first;
     while (last < end && !is_blank(*last) && *last != syntax_.comment)
         ++last;
-    // A comment may follow the keyword, but may not touch it.
-    if (last == first || (last < end && !is_blank(*last)) || end[-1] == '\\')
-        return next_line() ? token() : std::string_view();
+    const bool touches_comment = last < end && !is_blank(*last);
+    if (last == first || touches_comment || end[-1] == '\\')
+        return find_keyword();
     pass_over_line(next);
     return {first, static_cast<std::size_t>(last - first)};
 }
@@ -294,12 +298,14 @@ std::int64_t TextScanner::integer(const char* what)
     return value;
 }
 
+/// The complaint that the next token is not the expected number.
+/// @param what the expected thing. @param form the form in which it can be written.
 std::string TextScanner::complaint_at_number(const char* what, const char* form)
 {
     const auto found = peek();
     if (found.empty())
         return fmt::format("expected {}, but the line ends; add what is missing or export the mesh again", what);
-    return fmt::format("expected {}, but found {}; write {}", what, Quoted{found}, form);
+    return fmt::format("expected {}, but found {}; write {}", what, in_quotes(found), form);
 }
 
 }  // namespace seamflow

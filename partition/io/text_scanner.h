@@ -50,15 +50,16 @@ class TextScanner final : public InputPosition {
     bool next_line();
 
     /// Goes to the next line with a token and returns this token; empty at the end of the text. Faster than `next_line`
-    /// and `token`, but the rest of the line may be lost.
+    /// and `token`, but the rest of the line may be passed over, as by a caller that counts lines.
     std::string_view next_keyword();
 
-    /// Reads the next line if it is in its commonest form. Otherwise nothing changes, and next_line finds the line.
+    /// Reads the next line if it is plain, which means in its commonest form (see PlainLine). Otherwise nothing
+    /// changes, and next_line finds the line.
     /// @param read called with a PlainLine; returns whether it could read the line to its end.
     template <class Read>
     bool next_plain_line(Read&& read)
     {
-        if (!may_be_plain())
+        if (!next_line_stands_alone())
             return false;
         PlainLine line(next_, end_, line_break_);
         if (!read(line))
@@ -136,8 +137,9 @@ class TextScanner final : public InputPosition {
     [[nodiscard]] const char* end_of_line(const char* from) const;
     [[nodiscard]] bool ends_token(const char* c) const;
     void load_line();
-    /// Whether a line is left that does not continue another line.
-    [[nodiscard]] bool may_be_plain() const { return next_ < end_ && !continued_ && !crosses_lines_; }
+    /// Whether a next line is left whose tokens are separate from those of the present line: the present line is not
+    /// continued, and line ends do not count as blanks.
+    [[nodiscard]] bool next_line_stands_alone() const { return next_ < end_ && !continued_ && !crosses_lines_; }
     /// Counts a line. @param next the beginning of the following line.
     void pass_over_line(const char* next)
     {
@@ -156,8 +158,11 @@ class TextScanner final : public InputPosition {
     /// The beginning of the next line, and the end of the text.
     const char* next_;
     const char* end_;
+    /// Whether the present line ends with a backslash, so that the next line continues it.
     bool continued_ = false;
+    /// Whether line ends count as blanks (see cross_lines).
     bool crosses_lines_ = false;
+    /// The number of the present line, from 1; 0 before the first.
     std::size_t line_ = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "partition/metrics/bounding_box.h"
 
+#include <fmt/format.h>
+
 #include "partition/metrics/box.h"
 
 namespace seamflow {
@@ -28,19 +30,29 @@ BoundingBox box_of_faces(const PolygonMesh& mesh, const Executor& exec)
     return box_of_faces(mesh, mesh.vertices, exec);
 }
 
-std::vector<Index> far_from_faces(const PolygonMesh& mesh, std::span<const Index> vertices, const Executor& exec)
+std::vector<Index> far_from_faces(const BoundingBox& of_faces, const Points& positions, std::span<const Index> vertices)
 {
     std::vector<Index> far;
-    if (vertices.empty())
-        return far;
-    const BoundingBox box = box_of_faces(mesh, exec);
     for (const Index v : vertices) {
-        const Point position = mesh.vertices.row(v);
-        const Point inside = position.cwiseMax(box.low).cwiseMin(box.high);
-        if ((position - inside).norm() > box.diagonal())
+        const Point position = positions.row(v);
+        const Point inside = position.cwiseMax(of_faces.low).cwiseMin(of_faces.high);
+        if ((position - inside).norm() > of_faces.diagonal())
             far.push_back(v);
     }
     return far;
+}
+
+Remark remark_on_far_vertices(const std::vector<Index>& vertices)
+{
+    const bool is_one = vertices.size() == 1;
+    return fmt::format(
+        "{} no face and lie{} further from the surface than it is large: {}; remove {} where other programs mind.",
+        is_one ? fmt::format("Vertex {} (numbered from 0) has", vertices.front())
+               : fmt::format("{} vertices, the first of which is {} (numbered from 0), have", vertices.size(),
+                             vertices.front()),
+        is_one ? "s" : "",
+        is_one ? "it stays there, and counts in no length" : "they stay there, and count in no length",
+        is_one ? "it" : "them");
 }
 
 }  // namespace seamflow

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "partition/polygon_mesh.h"
+#include "partition/remark.h"
 #include "partition/vector_area.h"
 
 namespace seamflow {
@@ -31,9 +32,13 @@ BoundingBox box_of_vertices(const Points& positions, std::span<const std::uint8_
 /// The bounding box of the vertices that faces use, at the mesh's own positions.
 BoundingBox box_of_faces(const PolygonMesh& mesh, const Executor& exec = run_serially);
 
-/// @returns the vertices whose distance to the box around the faces is larger than its diagonal.
+/// The vertices whose distance to the box around the faces is larger than its diagonal.
 /// @param vertices without faces, ascending.
-std::vector<Index> far_from_faces(const PolygonMesh& mesh, std::span<const Index> vertices,
-                                  const Executor& exec = run_serially);
+std::vector<Index> far_from_faces(const BoundingBox& of_faces, const Points& positions,
+                                  std::span<const Index> vertices);
+
+/// A sentence for the user about vertices that count in no length because no face uses them.
+/// @param vertices far from all faces: at least one, ascending.
+Remark remark_on_far_vertices(const std::vector<Index>& vertices);
 
 }  // namespace seamflow

@@ -18,8 +18,10 @@ namespace {
 
 /// The regions into which the faces of a mesh divide space, found by walking around edges: from the side of a face to
 /// the side of the next face that faces it, and at an edge of one face to the other side of the face. Sides are
-/// numbered 2 f for the side of face f to which its normal points, and 2 f + 1 for the other. A region is bounded by
-/// one connected surface: the space between the two surfaces of a hollow body counts as two regions here.
+/// numbered 2 f for the side of face f to which its normal points, and 2 f + 1 for the other, so that side ^ 1 is the
+/// opposite side of the same face. A region is bounded by one connected surface: the space between the two surfaces of
+/// a hollow body counts as two regions here. A sheet is a part of the mesh without edges of three faces or more; sheets
+/// meet at such edges.
 struct Regions {
     /// #2F: the region at each side, numbered by their lowest sides.
     std::vector<Index> of_side;
@@ -28,8 +30,9 @@ struct Regions {
     /// In length³: positive if the region lies within its surface, negative if it lies around it, 0 if the volume may
     /// be rounding of positions in single precision, as between repeated faces.
     std::vector<double> volumes;
-    /// At edges where sheets meet: the sides of faces on which the next face around the edge lies. If the two faces
-    /// belong to two sheets that lie on each other, the region at the side has the volume 0.
+    /// The contacts, at edges where sheets meet: the sides of faces on which the next face around the edge lies. The
+    /// region at such a side is the one between the two faces. If two sheets lie on each other with the same faces,
+    /// nothing is between them: the region has the volume 0.
     std::vector<Index> contacts;
 };
 
@@ -84,7 +87,8 @@ std::vector<double> of_lists(const IndexLists& lists, const Executor& exec, Valu
     return values;
 }
 
-/// The volume of the region with these sides, in length³; its sign as in Regions::volumes.
+/// The volume of the region with these sides, in length³; its sign as in Regions::volumes. It is the sum of the signed
+/// volumes of the cones from one point to all faces.
 double volume_on(std::span<const Index> sides, const PolygonMesh& mesh, const Points& positions, const Executor& exec)
 {
     if (sides.empty())
@@ -103,7 +107,9 @@ double certain_volume_on(std::span<const Index> sides, const PolygonMesh& mesh, 
     const double volume = volume_on(sides, mesh, positions, exec);
     const double area = sum(exec, static_cast<Index>(sides.size()),
                             [&](Index i) { return vector_area(mesh.face(sides[i] / 2), positions).stableNorm(); });
-    return std::abs(volume) > 1e-7 * area * std::sqrt(area) ? volume : 0.0;
+    // Positions in single precision have errors of about this fraction of the size of a region.
+    constexpr double rounding = 1e-7;
+    return std::abs(volume) > rounding * area * std::sqrt(area) ? volume : 0.0;
 }
 
 /// The sides of each region. Faces with both sides in one region are left out.
@@ -155,7 +161,11 @@ EnclosedCells find_cells(const PolygonMesh& mesh, const Points& positions, const
         cells.sides.values.insert(cells.sides.values.end(), regions.sides[r].begin(), regions.sides[r].end());
         cells.sides.close();
     }
-    cells.n_surfaces = static_cast<Index>(std::ranges::count_if(regions.volumes, [](double v) { return v < 0.0; }));
+    // Each connected surface has one region around it.
+    cells.n_surfaces =
+        static_cast<Index>(std::ranges::count_if(regions.volumes, [](double volume) { return volume < 0.0; }));
+    // Two faces that lie on each other should have nothing between them. If the region between them has a volume, the
+    // two sheets have different faces, so that walking from one to the other has led into a cell or the outside.
     cells.n_overlaps = static_cast<Index>(std::ranges::count_if(
         regions.contacts, [&](Index side) { return regions.volumes[regions.of_side[side]] != 0.0; }));
     return cells;

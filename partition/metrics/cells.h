@@ -16,8 +16,9 @@ struct EnclosedCells {
     /// One list for each cell, the largest cell first: the sides of faces around it, 2 f for the side of face f to
     /// which its normal points, and 2 f + 1 for the other. Faces with both sides in one cell are left out.
     IndexLists sides;
-    /// The number of edges at which two faces lie on each other while the region between them has a volume: sheets with
-    /// different faces there. The cells on both sides may then count as one, and volumes are not valid.
+    /// The number of overlaps: edges at which two faces lie on each other while the region between them, which should
+    /// be empty, has a volume. The two sheets then have different faces there. The cells on both sides may count as
+    /// one: unless this is 0, volumes are not valid, and callers should not use the cells.
     Index n_overlaps = 0;
     /// The number of surfaces around cells that meet each other at no edge: some may lie within others.
     Index n_surfaces = 0;

@@ -175,7 +175,7 @@ void triangulate(std::span<const Index> corners, const Points& positions, std::v
 std::vector<Triangle> triangulate(const PolygonMesh& mesh)
 {
     std::vector<Triangle> triangles;
-    triangles.reserve(usize(mesh.n_corners()) - 2 * usize(mesh.n_faces()));
+    triangles.reserve(mesh.n_corners() - 2 * mesh.n_faces());
     for (Index f = 0; f < mesh.n_faces(); ++f)
         triangulate(mesh.face(f), mesh.vertices, triangles);
     return triangles;

@@ -13,7 +13,7 @@
 #include "samples/benchmark/k_harmonic.h"
 #include "samples/benchmark/whole_run.h"
 #include "samples/files/about_file.h"
-#include "samples/files/mesh_results.h"
+#include "samples/files/mesh_input.h"
 #include "samples/meshes/meshes.h"
 #include "solvers/laplacian/degenerate.h"
 

@@ -82,7 +82,7 @@ std::string complaint_of_surplus(const CLI::App& app)
     if (left.empty())
         return {};
     if (option == left.end())
-        return fmt::format("{} is one argument too many", Quoted{left.front()}) +
+        return fmt::format("{} is one argument too many", in_quotes(left.front())) +
                (app.get_option_no_throw("--out-dir") != nullptr
                     ? ": meshes that are tiles of one surface need --out-dir, for their results"
                     : "");

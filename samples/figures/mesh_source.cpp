@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "partition/formats/mesh_io.h"
-#include "samples/files/mesh_results.h"
+#include "samples/files/mesh_input.h"
 
 namespace seamflow {
 

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
-#include "partition/io/input_position.h"
 #include "samples/files/output_files.h"
 
 namespace seamflow {
@@ -18,10 +17,11 @@ constexpr const char* colours_among_extras = "colours";
 
 }  // namespace
 
-MeshOutput::MeshOutput(std::filesystem::path path, const MeshFile& input)
+MeshOutput::MeshOutput(std::filesystem::path path, const MeshFile& input, const std::optional<LengthOnMesh>& weld)
     : path_(std::move(path))
     , input_(&input)
     , kind_(kind_for_writing(path_, input.kind))
+    , seam_distance_(weld.value_or(0.0).value)
 {
 }
 
@@ -47,13 +47,12 @@ FileFields MeshOutput::colours(const Executor& exec) const
 }
 
 std::vector<std::string> MeshOutput::write_as(const std::filesystem::path& path, const PolygonMesh& mesh,
-                                              const PolygonMesh* separated, const Executor& exec,
-                                              double seam_distance) const
+                                              const PolygonMesh* separated, const Executor& exec) const
 {
-    if (separated != nullptr)
-        return write_mesh(path, *separated, kind_, exec);
-    return is_like_input() ? write_mesh_like(*input_->source, path, mesh, exec, seam_distance)
-                           : write_mesh(path, mesh, kind_, colours(exec), exec);
+    if (separated == nullptr && is_like_input())
+        return write_mesh_like(*input_->source, path, mesh, exec, seam_distance_);
+    const FileFields fields = separated == nullptr ? colours(exec) : FileFields();
+    return write_mesh(path, separated == nullptr ? mesh : *separated, kind_, fields, exec);
 }
 
 std::vector<std::string> MeshOutput::remarks_on_losses(bool joined, const Executor& exec) const
@@ -103,18 +102,6 @@ std::vector<std::string> MeshOutput::remarks_on_input(const std::filesystem::pat
     if (std::filesystem::equivalent(input, path_, ignored))
         remarks.push_back("The result has replaced the input, in one go when it was complete.");
     return remarks;
-}
-
-void require_faces(const std::filesystem::path& path, std::int64_t n_faces, const FaultLog& left_out)
-{
-    if (n_faces > 0)
-        return;
-    const std::string reason =
-        left_out.messages.empty()
-            ? "vertices alone are not a surface; export the mesh with its faces"
-            : fmt::format("{} cannot be used (the first: {})", counted(left_out.faces_left_out.size(), "face", "faces"),
-                          left_out.messages.front());
-    throw InputError(fmt::format("{}: has no faces: {}", path.string(), reason));
 }
 
 }  // namespace seamflow

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/options/motion_options.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/io/fault_log.h"
 
@@ -14,8 +15,10 @@ namespace seamflow {
 /// (see write_mesh_like) if the formats are the same and the sub-meshes are joined, else that of a plain mesh.
 class MeshOutput {
   public:
-    /// @param input must outlive this. @throws as kind_for_writing.
-    MeshOutput(std::filesystem::path path, const MeshFile& input);
+    /// @param input must outlive this. @param weld resolved: across seams of this width, shading that was continuous
+    /// stays so (see write_mesh_like).
+    /// @throws as kind_for_writing.
+    MeshOutput(std::filesystem::path path, const MeshFile& input, const std::optional<LengthOnMesh>& weld = {});
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     [[nodiscard]] const FileKind& kind() const { return kind_; }
@@ -26,19 +29,17 @@ class MeshOutput {
     void require_storable() const;
 
     /// @param separated the sub-meshes, each with its own copies of shared vertices; null: they are joined.
-    /// @param seam_distance see write_mesh_like.
     /// @returns remarks for the user.
     /// @throws OutputError, InputError (see write_mesh_like).
     std::vector<std::string> write(const PolygonMesh& mesh, const PolygonMesh* separated,
-                                   const Executor& exec = run_serially, double seam_distance = 0.0) const
+                                   const Executor& exec = run_serially) const
     {
-        return write_as(path_, mesh, separated, exec, seam_distance);
+        return write_as(path_, mesh, separated, exec);
     }
 
     /// The same to another file of this form.
     std::vector<std::string> write_as(const std::filesystem::path& path, const PolygonMesh& mesh,
-                                      const PolygonMesh* separated, const Executor& exec = run_serially,
-                                      double seam_distance = 0.0) const;
+                                      const PolygonMesh* separated, const Executor& exec = run_serially) const;
 
     /// Lists the data of the input that the file will not have.
     /// @param joined whether the sub-meshes will be joined.
@@ -61,11 +62,7 @@ class MeshOutput {
     std::filesystem::path path_;
     const MeshFile* input_;
     FileKind kind_;
+    double seam_distance_;
 };
-
-/// Checks that there are faces.
-/// @param left_out what of the file is not among the faces.
-/// @throws InputError
-void require_faces(const std::filesystem::path& path, std::int64_t n_faces, const FaultLog& left_out = {});
 
 }  // namespace seamflow

@@ -15,7 +15,7 @@ SmoothReport report_of(DenoiseReport report, Index n_faces)
     all.noise = report.noise;
     all.time_step = report.time_step;
     all.resources.threads = report.threads;
-    all.cut.labels.assign(usize(n_faces), 0);
+    all.cut.labels.assign(n_faces, 0);
     if (n_faces > 0)
         all.cut.sub_meshes = {{.faces = static_cast<Index>(report.mesh.faces - std::ssize(report.mesh.repeated_faces)),
                                .vertices = static_cast<Index>(report.mesh.vertices)}};

@@ -159,7 +159,7 @@ void ObjColourReader::face(TextScanner& scanner, const ObjCounts& /*before*/)
     std::vector<Index> distinct;
     find_distinct_corners(vertices, distinct);
     for (const Index k : distinct)
-        result_.place_of_corner.push_back(places[usize(k)]);
+        result_.place_of_corner.push_back(places[k]);
     if (f >= mesh_.n_faces() || distinct.size() != mesh_.face(f).size())
         scanner_.fail("the face is not that of the mesh; leave the file unchanged while it is read");
     const auto [entry, is_new] = materials_.try_emplace(material_, static_cast<Index>(names_.size()));

@@ -1,11 +1,14 @@
 #include "samples/page/page_flow.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <span>
 #include <utility>
 
 #include "engine/measure/surface_measures.h"
 #include "engine/tasks/parallel_executor.h"
 #include "partition/metrics/vertex_distance.h"
+#include "samples/page/packed_array.h"
 #include "samples/page/shown_steps.h"
 
 namespace seamflow {
@@ -78,6 +81,8 @@ void PageFlow::add_step(int step, const Points& positions, const Points* undecom
 void PageFlow::finish(const FlowReport& report, std::string report_json)
 {
     labels_ = report.cut.labels;
+    const std::vector<std::uint32_t> labels(labels_.begin(), labels_.end());
+    packed_labels_ = packed(std::span<const std::uint32_t>(labels), 1);
     report_json_ = std::move(report_json);
 }
 

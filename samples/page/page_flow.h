@@ -70,6 +70,8 @@ class PageFlow {
     [[nodiscard]] const std::string& report_json() const { return report_json_; }
     /// Sub-mesh of every face.
     [[nodiscard]] const std::vector<Index>& labels() const { return labels_; }
+    /// The same as text (see packed()).
+    [[nodiscard]] const std::string& packed_labels() const { return packed_labels_; }
 
   private:
     [[nodiscard]] PageSurface pack_surface(const Points& positions) const;
@@ -83,6 +85,7 @@ class PageFlow {
     std::vector<PageState> states_;
     std::string report_json_;
     std::vector<Index> labels_;
+    std::string packed_labels_;
 };
 
 }  // namespace seamflow

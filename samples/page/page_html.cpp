@@ -12,17 +12,14 @@
 
 #include "partition/errors.h"
 #include "samples/page/packed_array.h"
+#include "samples/page/packed_mesh.h"
 #include "samples/page/page_template.h"
-#include "samples/page/page_triangles.h"
 
 namespace seamflow {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Four times the largest page shown in a browser so far.
-constexpr Index most_faces = 5'000'000;
 
 /// The data of a page: scripts that are not run, which the page's own script finds by their number.
 class Blocks {
@@ -90,8 +87,7 @@ Json flow_json(const PageFlow& flow, Blocks& blocks)
     json["name"] = flow.name();
     json["has_undecomposed"] = flow.has_undecomposed();
     json["remark"] = flow.remark();
-    const std::vector<std::uint32_t> labels(flow.labels().begin(), flow.labels().end());
-    json["labels"] = blocks.add(packed(std::span<const std::uint32_t>(labels), 1));
+    json["labels"] = blocks.add(flow.packed_labels());
     json["states"] = Json::array();
     for (const PageState& state : flow.states()) {
         Json& of_state = json["states"].emplace_back();
@@ -139,33 +135,11 @@ Json fields_json(const PageMesh& mesh, const PageFields& fields, Blocks& blocks)
     return json;
 }
 
-/// For each corner of the triangles, its place in an image.
-std::vector<std::uint32_t> places_of(const PageTriangles& triangles, const PolygonMesh& mesh,
-                                     const std::vector<Index>& place_of_corner)
+Json colours_json(const FileColours& colours, const PackedMesh& packed_mesh, Blocks& blocks)
 {
-    std::vector<std::uint32_t> places;
-    std::size_t next = 0;
-    for (Index f = 0; f < mesh.n_faces(); ++f) {
-        const auto face = mesh.face(f);
-        for (std::uint32_t k = 0; k < 3 * triangles.per_face[usize(f)]; ++k, ++next) {
-            const auto v = static_cast<Index>(triangles.corners[next]);
-            const auto in_face = static_cast<Index>(std::find(face.begin(), face.end(), v) - face.begin());
-            places.push_back(static_cast<std::uint32_t>(place_of_corner[usize(mesh.face_offsets[f] + in_face)]));
-        }
-    }
-    return places;
-}
-
-Json colours_json(const PageMesh& page, const PageTriangles& triangles, Blocks& blocks)
-{
-    const FileColours& colours = page.colours;
     Json json;
-    if (!colours.of_vertices.empty()) {
-        std::vector<std::uint8_t> bytes;
-        for (const Colour& colour : colours.of_vertices)
-            bytes.insert(bytes.end(), colour.begin(), colour.end());
-        json["vertices"] = blocks.add(packed(std::span<const std::uint8_t>(bytes)));
-    }
+    if (!colours.of_vertices.empty())
+        json["vertices"] = blocks.add(packed_mesh.colours_of_vertices);
     if (colours.materials.empty())
         return json;
     std::map<std::string_view, int> images;
@@ -177,37 +151,30 @@ Json colours_json(const PageMesh& page, const PageTriangles& triangles, Blocks& 
         if (!material.image.empty())
             of_material["image"] = images[material.image];
     }
-    const std::vector<std::uint32_t> of_faces(colours.material_of_face.begin(), colours.material_of_face.end());
-    json["material_of_face"] = blocks.add(packed(std::span<const std::uint32_t>(of_faces), 1));
+    json["material_of_face"] = blocks.add(packed_mesh.material_of_face);
     if (colours.place_of_corner.empty())
         return json;
-    Points places = Points::Zero(static_cast<Eigen::Index>(colours.places.size()), 3);
-    for (std::size_t k = 0; k < colours.places.size(); ++k)
-        for (std::size_t c = 0; c < 2; ++c)
-            places(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(c)) = colours.places[k][c];
-    json["places"] = points_json(pack_points(places), blocks);
-    const std::vector<std::uint32_t> of_corners = places_of(triangles, page.mesh, colours.place_of_corner);
-    json["place_of_corner"] = blocks.add(packed(std::span<const std::uint32_t>(of_corners), 3));
+    json["places"] = points_json(packed_mesh.places, blocks);
+    json["place_of_corner"] = blocks.add(packed_mesh.place_of_corner);
     return json;
 }
 
-Json mesh_json(const PageMesh& page, Blocks& blocks)
+Json mesh_json(const PageMesh& page, const PackedMesh& packed_mesh, Blocks& blocks)
 {
-    const PageTriangles triangles = page_triangles(page.mesh, page.topology);
-    return {{"colours", colours_json(page, triangles, blocks)},
+    return {{"colours", colours_json(page.colours, packed_mesh, blocks)},
             {"remarks", page.colours.remarks},
             {"vertices", page.mesh.n_vertices()},
             {"faces", page.mesh.n_faces()},
             {"mean_edge", number(page.mean_edge)},
-            {"triangles", triangles.edges.size()},
-            {"corners", blocks.add(packed(std::span<const std::uint32_t>(triangles.corners), 3))},
-            {"edges", blocks.add(packed(std::span<const std::uint8_t>(triangles.edges)))},
-            {"per_face", blocks.add(packed(std::span<const std::uint32_t>(triangles.per_face), 1))}};
+            {"triangles", packed_mesh.n_triangles},
+            {"corners", blocks.add(packed_mesh.corners)},
+            {"edges", blocks.add(packed_mesh.edges)},
+            {"per_face", blocks.add(packed_mesh.per_face)}};
 }
 
 Json begin_facts(const std::string& title, const PageMesh& mesh, Blocks& blocks)
 {
-    return {{"title", title}, {"mesh", mesh_json(mesh, blocks)}};
+    return {{"title", title}, {"mesh", mesh_json(mesh, pack_mesh(mesh), blocks)}};
 }
 
 /// The page with everything in it.
@@ -262,13 +229,6 @@ void require_page()
         throw OptionError(
             "--html: this program was built without the page, which needs npm; install it (Debian: apt-get install "
             "nodejs npm), configure again where the npm registry can be reached (cmake --preset release), and build");
-}
-
-void require_showable(const PolygonMesh& mesh, const std::filesystem::path& path)
-{
-    if (mesh.n_faces() > most_faces)
-        throw OutputError(path.string() + ": cannot be written: a browser shows at most " + std::to_string(most_faces) +
-                          " faces, and the mesh has " + std::to_string(mesh.n_faces()));
 }
 
 }  // namespace seamflow

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <span>
 #include <string>
 
@@ -21,9 +20,6 @@ std::string page_html(const std::string& title, const PageMesh& mesh, const Page
 
 /// @throws OptionError saying what to install if this program was built without the page.
 void require_page();
-
-/// @throws OutputError for a mesh of more faces than a browser can show.
-void require_showable(const PolygonMesh& mesh, const std::filesystem::path& path);
 
 /// A text escaped for HTML, between tags or in quotation marks.
 std::string escaped_for_html(std::string text);

@@ -36,7 +36,7 @@ std::uint8_t edge_bits(const PolygonMesh& mesh, const Topology& topology, Index 
 PageTriangles page_triangles(const PolygonMesh& mesh, const Topology& topology)
 {
     PageTriangles result;
-    result.corners.reserve(3 * usize(mesh.n_corners() - 2 * mesh.n_faces()));
+    result.corners.reserve(std::size_t{3} * (mesh.n_corners() - 2 * mesh.n_faces()));
     result.edges.reserve(result.corners.capacity() / 3);
     std::vector<Triangle> triangles;
     for (Index f = 0; f < mesh.n_faces(); ++f) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "partition/errors.h"
+
 namespace seamflow {
 
 namespace {
@@ -12,8 +14,17 @@ constexpr double bytes_of_state = 8.0;
 constexpr double bytes_of_undecomposed_state = 6.0;
 constexpr double most_bytes = 80e6;
 constexpr int most_steps = 200;
+/// Four times the largest page shown in a browser so far.
+constexpr Index most_faces = 5'000'000;
 
 }  // namespace
+
+void require_showable(const PolygonMesh& mesh, const std::filesystem::path& path)
+{
+    if (mesh.n_faces() > most_faces)
+        throw OutputError(path.string() + ": cannot be written: a browser shows at most " + std::to_string(most_faces) +
+                          " faces, and the mesh has " + std::to_string(mesh.n_faces()));
+}
 
 std::vector<int> shown_steps(int steps, Index n_vertices, bool undecomposed)
 {

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "partition/index.h"
+#include "partition/polygon_mesh.h"
 
 namespace seamflow {
+
+/// @throws OutputError for a mesh of more faces than a browser can show.
+void require_showable(const PolygonMesh& mesh, const std::filesystem::path& path);
 
 /// The steps whose states a page holds, so that its size stays bounded: all if they take at most about 80 MB and are at
 /// most 200; else as many as this allows, evenly spaced, always with the last one.

@@ -6,6 +6,8 @@
 #include "partition/errors.h"
 #include "samples/process/option_words.h"
 #include "samples/report/report_json.h"
+#include "samples/report/surface_remarks.h"
+#include "samples/runs/command_run.h"
 #include "samples/runs/smoothing_run.h"
 
 namespace seamflow {

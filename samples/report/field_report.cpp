@@ -8,7 +8,7 @@
 
 #include "partition/executor.h"
 #include "partition/io/input_position.h"
-#include "samples/report/json_parts.h"
+#include "samples/report/report_json.h"
 #include "samples/report/report_text.h"
 
 namespace seamflow {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/measure/length_scale.h"
-#include "partition/metrics/spikes.h"
+#include "partition/metrics/edge_measures.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -13,8 +13,8 @@ struct MeshScale {
     double mean_edge = 0.0;
     /// Of the bounding box of all vertices that faces use.
     double diagonal = 0.0;
-    /// Vertices that no face uses, ascending, which lie in no box.
-    std::vector<Index> unused_vertices = {};
+    /// Vertices that no face uses, and which lie far from all faces, ascending.
+    std::vector<Index> far_vertices = {};
     std::vector<Spike> spikes = {};
 
     /// For options that are given by these sizes.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -9,9 +10,9 @@
 #include <fmt/format.h>
 
 #include "engine/measure/smoothed_radius.h"
-#include "engine/options/option_names.h"
 #include "partition/io/input_position.h"
 #include "samples/process/option_words.h"
+#include "samples/report/flow_names.h"
 #include "samples/report/mesh_scale.h"
 
 namespace seamflow {
@@ -138,38 +139,34 @@ void print_preset(std::ostream& out, const RunRecord& run, const std::string& op
 
 namespace {
 
-/// "3 steps of 2 squared mean edge lengths (dt 0.1)".
-std::string amount_of_steps(const MeshScale& scale, const FlowOptions& options)
+/// "3 steps of 2 squared mean edge lengths (dt 0.1)", and what they do.
+/// @param keep_edges in degrees; nothing: no edges are kept.
+void print_steps(std::ostream& out, const MeshScale& scale, const FlowOptions& options,
+                 const std::optional<double>& keep_edges)
 {
-    return fmt::format("amount     {} of {:.6g} squared mean edge lengths (dt {:.6g})",
+    out << fmt::format("amount     {} of {:.6g} squared mean edge lengths (dt {:.6g})",
                        counted(options.steps, "step", "steps"), options.time_step / (scale.mean_edge * scale.mean_edge),
                        options.time_step);
+    if (keep_edges) {
+        out << fmt::format(", edges sharper than {:g} degrees kept", *keep_edges) << std::endl;
+        return;
+    }
+    const double radius = smoothed_radius(options.time_step, options.steps, filter_of(options));
+    out << fmt::format(": bumps of radius {:.6g}, {:.3g}% of the diagonal, lose half their height", radius,
+                       100.0 * radius / scale.diagonal)
+        << std::endl;
 }
 
 }  // namespace
 
 void print_amount(std::ostream& out, const MeshScale& scale, const AllOptions& options)
 {
-    if (options.steps > 0 && options.denoise)
-        out << "amount     as much as there is noise at each place" << std::endl;
-    else if (options.steps > 0 && options.keep_edges)
-        out << fmt::format("{}, edges sharper than {:g} degrees kept", amount_of_steps(scale, options),
-                           *options.keep_edges)
-            << std::endl;
-    else
-        print_amount(out, scale, static_cast<const FlowOptions&>(options));
-}
-
-void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& options)
-{
-    if (options.steps == 0) {
+    if (options.steps == 0)
         out << "amount     none" << std::endl;
-        return;
-    }
-    const double radius = smoothed_radius(options.time_step, options.steps, filter_of(options));
-    out << fmt::format("{}: bumps of radius {:.6g}, {:.3g}% of the diagonal, lose half their height",
-                       amount_of_steps(scale, options), radius, 100.0 * radius / scale.diagonal)
-        << std::endl;
+    else if (options.denoise)
+        out << "amount     as much as there is noise at each place" << std::endl;
+    else
+        print_steps(out, scale, options, options.keep_edges);
 }
 
 void print_step(std::ostream& out, const StepReport& report, int step, int steps, double mean_edge)
@@ -196,22 +193,22 @@ void print_step(std::ostream& out, const StepReport& report, int step, int steps
 
 void print_details(std::ostream& out, const RunRecord& run, const AllOptions& options, const SmoothReport& report)
 {
-    const StepFilter filter = filter_of(options);
+    const FlowNames names = flow_names(options, report);
     out << "flow       "
         << (report.noise         ? std::string("noise removed")
             : options.keep_edges ? fmt::format("edges sharper than {:g} degrees kept", *options.keep_edges)
-                                 : std::string(name_of(options.laplacian)));
+                                 : std::string(names.laplacian));
     if (options.flow != FlowEquation::MeanCurvature)
-        out << ", " << option_name(options.flow);
-    if (!filter.is_plain())
-        out << ", " << option_name(filter.kind) << " of order " << filter.order;
+        out << ", " << names.flow;
+    if (!names.is_plain)
+        out << ", " << names.filter << " of order " << names.order;
     if (options.motion.attachment > 0.0)
         out << ", attached with " << digits(options.motion.attachment, 4) << " / length²";
     if (!options.motion.attachment_weights.empty())
         out << ", attached by weights";
     if (options.motion.rescale != Rescale::None)
-        out << ", " << option_name(options.motion.rescale) << " kept";
-    if (!report.noise && !report.steps.empty())
+        out << ", " << names.rescale << " kept";
+    if (names.radius)
         out << ", time step " << digits(report.time_step, 10);
     out << '\n';
     print_cut(out, report);

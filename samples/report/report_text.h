@@ -23,7 +23,6 @@ void print_preset(std::ostream& out, const RunRecord& run, const std::string& op
 
 /// Prints the amount of smoothing, in all units in which it can be given.
 void print_amount(std::ostream& out, const MeshScale& scale, const AllOptions& options);
-void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& options);
 
 /// One line for a step.
 /// @param step its number, from 1, of `steps`.

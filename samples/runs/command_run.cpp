@@ -1,64 +1,30 @@
 #include "samples/runs/command_run.h"
 
-#include <filesystem>
 #include <iostream>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "partition/formats/edge_files.h"
-#include "partition/formats/index_files.h"
 #include "partition/io/input_file.h"
-#include "samples/files/output_files.h"
+#include "partition/io/input_position.h"
 #include "samples/process/exit_status.h"
-#include "samples/runs/smoothing_run.h"
 
 namespace seamflow {
-
-namespace {
-
-/// The labels of the faces that are in the mesh.
-std::vector<Index> labels_of_faces(const std::filesystem::path& path, Index n_faces, const std::vector<Index>& left_out)
-{
-    std::vector<Index> labels = read_labels(path, n_faces + static_cast<Index>(left_out.size()));
-    auto next = left_out.begin();
-    Index f = 0;
-    std::erase_if(labels, [&](Index) {
-        const bool is_left_out = next != left_out.end() && *next == f;
-        next += is_left_out ? 1 : 0;
-        ++f;
-        return is_left_out;
-    });
-    return labels;
-}
-
-}  // namespace
-
-void read_named_files(SmoothCommand& command, const PolygonMesh& mesh, const std::vector<Index>& left_out)
-{
-    const Index n = mesh.n_vertices();
-    if (!command.labels.empty())
-        command.options.cut.labels = labels_of_faces(command.labels, mesh.n_faces(), left_out);
-    MotionOptions& motion = command.options.motion;
-    if (!command.fix.empty())
-        motion.fixed_vertices = read_vertex_set(command.fix, n, command.fix_property);
-    if (!command.edges.empty() || command.edges_from_file)
-        motion.feature_edges = read_edges(command.edges_from_file ? command.input : command.edges, n);
-    if (!command.attach_weights.empty())
-        motion.attachment_weights = read_vertex_weights(command.attach_weights, n, command.attach_property);
-    if (command.region.empty())
-        return;
-    const bool is_file = std::filesystem::exists(command.region);
-    motion.strength = read_vertex_strengths(is_file ? command.region : command.input, n,
-                                            is_file ? command.region_property : command.region.string());
-}
 
 std::ostream& message_stream(const SmoothCommand& command)
 {
     static std::ostream silence(nullptr);
     const bool is_taken = is_standard_stream(command.output) || is_standard_stream(command.report);
     return command.quiet ? silence : is_taken ? std::cerr : std::cout;
+}
+
+std::string missed_tolerance(const SmoothRequest& request, const ConvergenceReport& report)
+{
+    const std::optional<double>& tolerance = request.options.accuracy.tolerance;
+    const int missed = request.limits_iterations ? report.steps_stagnated : report.steps_short_of_tolerance;
+    return !tolerance || missed == 0 ? ""
+                                     : fmt::format("the tolerance {} was missed in {}", *tolerance,
+                                                   counted(static_cast<std::uint64_t>(missed), "step", "steps"));
 }
 
 ExitStatus require_converged(const SmoothCommand& command, const ConvergenceReport& report)

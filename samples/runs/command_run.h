@@ -1,7 +1,7 @@
 #pragma once
 
 #include <iosfwd>
-#include <vector>
+#include <string>
 
 #include "engine/measure/flow_report.h"
 #include "partition/polygon_mesh.h"
@@ -11,14 +11,12 @@
 /// The work around the runs of a command line.
 namespace seamflow {
 
-/// Reads into the options the files that the command line names besides the input: labels, fixed vertices, edges,
-/// weights of the attachment, and the region.
-/// @param left_out ascending: the numbers in the file of the faces that are not in the mesh; they have labels, too.
-/// @throws InputError
-void read_named_files(SmoothCommand& command, const PolygonMesh& mesh, const std::vector<Index>& left_out);
-
 /// Where messages go: nowhere with --quiet, to standard error where a result takes standard output.
 std::ostream& message_stream(const SmoothCommand& command);
+
+/// "the tolerance 1e-08 was missed in 2 steps"; empty if the user has requested no tolerance or no step has failed.
+/// Those fail that missed it, or, if the user has limited the iterations, those that stagnated.
+std::string missed_tolerance(const SmoothRequest& request, const ConvergenceReport& report);
 
 /// The status of a complete run. If steps have missed their tolerance, the results are not what was asked for: prints
 /// that to standard error.

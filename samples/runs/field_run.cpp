@@ -26,17 +26,20 @@
 #include "partition/formats/ply_data.h"
 #include "partition/io/input_file.h"
 #include "partition/io/input_position.h"
+#include "partition/metrics/bounding_box.h"
 #include "samples/files/about_file.h"
+#include "samples/files/mesh_input.h"
 #include "samples/files/mesh_results.h"
 #include "samples/files/output_files.h"
 #include "samples/page/page_html.h"
 #include "samples/page/read_file_colours.h"
+#include "samples/page/shown_steps.h"
 #include "samples/process/exit_status.h"
 #include "samples/process/interruption.h"
 #include "samples/report/field_report.h"
 #include "samples/report/report_text.h"
 #include "samples/runs/command_run.h"
-#include "samples/runs/smoothing_run.h"
+#include "samples/runs/named_files.h"
 
 namespace seamflow {
 
@@ -108,7 +111,7 @@ void remark_on_labels(const FileFields& fields, std::vector<Remark>& remarks)
                 fmt::format("{} has {} different whole numbers: if they are labels, they are averaged like "
                             "measurements, which makes numbers between them; smooth a property of each "
                             "label, 1 on it and 0 elsewhere.",
-                            Quoted{name}, n));
+                            in_quotes(name), n));
     }
 }
 
@@ -210,7 +213,8 @@ void write_result(const MeshOutput& output, const MeshFile& file, FileFields& fi
     const Stopwatch writing;
     for (const auto& remarks : {output.remarks_on_losses(true, exec), write_fields(output, file, fields, exec)})
         summary.report.remarks.insert(summary.report.remarks.end(), remarks.begin(), remarks.end());
-    remark_on_vertices(file.mesh, run.scale, exec, summary.report.remarks);
+    if (!run.scale.far_vertices.empty())
+        summary.report.remarks.push_back(remark_on_far_vertices(run.scale.far_vertices));
     summary.after = ranges_of_columns(fields.values);
     if (left_out.count > 0)
         summary.report.remarks.push_back(output.remark_on_faces(left_out, true));
@@ -227,8 +231,7 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     Workers workers(command.options.resources.threads);
     const Executor exec = workers.exec();
     FaultLog left_out{.of_faces_alone = true};
-    MeshFile file = read_faulty_mesh(command.input, left_out, exec);
-    require_faces(command.input, file.mesh.n_faces(), left_out);
+    MeshFile file = read_surface(command.input, &left_out, exec);
     const MeshOutput output(command.output, file);
     require_place(command, output);
     FileColours colours;

@@ -12,7 +12,6 @@
 #include "samples/files/mesh_results.h"
 #include "samples/process/exit_status.h"
 #include "samples/process/option_words.h"
-#include "samples/runs/smoothing_run.h"
 
 namespace seamflow {
 
@@ -126,9 +125,8 @@ std::filesystem::path LongRun::write_last_step()
                                              ? std::filesystem::path("smooth" + extension_of(file_->kind.format))
                                              : command_->output;
     const auto path = interrupted_path(output, command_->input);
-    MeshOutput(path, *file_)
-        .write(file_->mesh, separated_ ? &*separated_ : nullptr, run_serially,
-               seam_distance_of(command_->options.motion));
+    MeshOutput(path, *file_, command_->options.motion.weld)
+        .write(file_->mesh, separated_ ? &*separated_ : nullptr, run_serially);
     return path;
 }
 

@@ -7,7 +7,7 @@
 #include "engine/state/archive.h"
 #include "engine/state/flow_identity.h"
 #include "partition/metrics/vertex_distance.h"
-#include "samples/files/mesh_results.h"
+#include "samples/files/mesh_input.h"
 #include "samples/tiles/tile_borders.h"
 #include "samples/tiles/tile_union.h"
 #include "samples/tiles/unjoined_borders.h"
@@ -49,8 +49,7 @@ void place_on_owners(const TileFolder& folder, Index tile, const TileOwners& own
 TileInput read_tile(const std::filesystem::path& path, const Executor& exec)
 {
     TileInput input;
-    input.file = read_faulty_mesh(path, input.left_out, exec);
-    require_faces(path, input.file.mesh.n_faces(), input.left_out);
+    input.file = read_surface(path, &input.left_out, exec);
     return input;
 }
 

@@ -9,7 +9,7 @@
 #include "samples/process/exit_status.h"
 #include "samples/process/option_words.h"
 #include "samples/report/report_text.h"
-#include "samples/runs/smoothing_run.h"
+#include "samples/runs/command_run.h"
 
 namespace seamflow {
 

@@ -23,7 +23,6 @@
 #include "samples/process/exit_status.h"
 #include "samples/process/interruption.h"
 #include "samples/report/progress_bar.h"
-#include "samples/runs/smoothing_run.h"
 #include "samples/tiles/tile_input.h"
 #include "samples/tiles/tile_report.h"
 #include "samples/tiles/tile_stepper.h"
@@ -272,8 +271,8 @@ void TiledRun::write(Index tile, const Points& positions)
         throw InputError(summary.path.string() + ": has been changed since the run began; start over with it");
     report_.add_result(input.file.mesh.vertices, positions);
     input.file.mesh.vertices = positions;
-    const MeshOutput output(command_.out_dir / summary.path.filename(), input.file);
-    for (const std::string& remark : output.write(input.file.mesh, nullptr, exec_, seam_distance_of(options_.motion)))
+    const MeshOutput output(command_.out_dir / summary.path.filename(), input.file, options_.motion.weld);
+    for (const std::string& remark : output.write(input.file.mesh, nullptr, exec_))
         report_.add_remark(summary.path, remark);
     if (run_.n_shared > 0 && has_normals(input.file, exec_))
         report_.add_remark(summary.path, summary.path.string() +

@@ -13,7 +13,8 @@ namespace seamflow {
 
 namespace {
 
-/// A share that changes linearly between two values, from 1 to 0.
+/// A share, by which an estimated normal is replaced by a flatter one: 0 leaves it, 1 replaces it. It changes linearly
+/// between two values of a measurement, from 1 to 0.
 struct Fading {
     float one_at;
     float zero_at;
@@ -31,16 +32,19 @@ constexpr Fading by_noise{0.2F, 0.15F};
 constexpr Fading by_bends{0.06F, 0.1F};
 constexpr double least_bend = 0.04;
 constexpr double largest_bend = 0.3;
-/// The share by the misfit of flatter normals: the mean squared chord between the directions of patches of the noisy
-/// surface and of the same patches with flatter normals, over the same chord with the estimates.
+/// The share by the misfit of flatter normals: the mean squared chord (the distance of two unit vectors) between the
+/// directions of patches of the noisy surface and of the same patches with flatter normals, over the same chord with
+/// the estimates.
 constexpr Fading by_misfit{1.15F, 1.3F};
 
 /// The rounds of bilateral means, and their σ (see FaceAverages).
 constexpr int flattening_rounds = 12;
 constexpr float flattening_sigma = 0.1F;
-/// The rounds of averages that make a patch, and the rounds over which the compared numbers are averaged.
+/// The rounds of averages over neighbours that make a patch of the faces around a face, and the rounds over which the
+/// compared numbers are averaged (see VertexAverages::spread, which can also give a nearer average, not used here).
 constexpr int patch_rounds = 4;
 constexpr int comparing_rounds = 16;
+constexpr int no_rounds_before = 0;
 
 using FaceRows = VertexAverages::Rows;
 
@@ -107,9 +111,10 @@ FlatterNormals flatter_normals_of(const NoisySurface& surface, const Points& nor
     return flatter;
 }
 
-/// The sums of vector areas over the patch around each face.
-/// @param area_of gives the vector area of a face, on its own side.
-/// @returns #F by 3: up to a factor.
+/// The sums of vector areas over the patch around each face, all on the same side of the surface.
+/// @param area_of gives the vector area of a face, on the side to which the order of its corners makes its normal
+/// point; neighbours may have opposite orders. The signs of the surface turn them to one side.
+/// @returns #F by 3: up to a positive factor.
 template <class AreaOf>
 FaceRows areas_of_patches(const NoisySurface& surface, AreaOf&& area_of, const Executor& exec)
 {
@@ -119,9 +124,14 @@ FaceRows areas_of_patches(const NoisySurface& surface, AreaOf&& area_of, const E
         of_faces.row(f) = (surface.signs.empty() ? area : surface.signs[f] * area).template cast<float>();
     });
     FaceRows around(surface.mesh.n_faces(), 3);
-    surface.averages.spread(of_faces, around, 0, patch_rounds, exec);
+    surface.averages.spread(of_faces, around, no_rounds_before, patch_rounds, exec);
     return around;
 }
+
+/// The columns of `comparison`.
+constexpr int bends_column = 0;
+constexpr int misfit_of_estimated = 1;
+constexpr int misfit_of_flatter = 2;
 
 /// #F by 3, averaged around each face: the fraction of bends; the squared chord between the direction of the noisy
 /// patch around a face (that of its vector area) and the direction of the same patch with the estimated normals; and
@@ -149,7 +159,7 @@ FaceRows comparison(const NoisySurface& surface, const Points& estimated, const 
             (direction(of_flatter) - direction(noisy)).squaredNorm();
     });
     FaceRows around(n_faces, 3);
-    surface.averages.spread(of_faces, around, 0, comparing_rounds, exec);
+    surface.averages.spread(of_faces, around, no_rounds_before, comparing_rounds, exec);
     return around;
 }
 
@@ -171,8 +181,9 @@ bool take_flatter_normals(const NoisySurface& surface, DenoisedNormals& estimate
     const FaceRows around = comparison(surface, normals, flatter, exec);
     for_each(exec, n_faces, [&](Index f) {
         // Estimates without any misfit stay.
-        const float misfit = around(f, 1) > 0.0F ? around(f, 2) / around(f, 1) : by_misfit.zero_at;
-        weights[f] *= by_bends(around(f, 0)) * by_misfit(misfit);
+        const float of_estimated = around(f, misfit_of_estimated);
+        const float misfit = of_estimated > 0.0F ? around(f, misfit_of_flatter) / of_estimated : by_misfit.zero_at;
+        weights[f] *= by_bends(around(f, bends_column)) * by_misfit(misfit);
         if (weights[f] > 0.0F)
             normals.row(f) = (normals.row(f) + weights[f] * (flatter.normals.row(f) - normals.row(f))).normalized();
     });

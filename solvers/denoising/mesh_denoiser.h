@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "partition/executor.h"
-#include "partition/metrics/spikes.h"
+#include "partition/metrics/edge_measures.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 #include "solvers/denoising/denoised_normals.h"

@@ -16,9 +16,9 @@ constexpr float added_to_kurtosis = 0.5F;
 constexpr float most_smoothness = 3.0F;
 constexpr float least_smoothness = -0.5F;
 constexpr float least_correlation = -0.05F;
-/// The revivals (see TakenStatistics::revival) below which a revival is no evidence for shape: of the displacements
-/// that the denoiser removes, and of those that a low-pass filter removes. Independent noise is below the first at 99
-/// of 100 places, and below the second at 90 of 100.
+/// The revivals (see RemovalStatistics::revival) below which a revival is no evidence for shape: of the
+/// displacements that the denoiser removes, and of those that a low-pass filter removes. Independent noise is below the
+/// first at 99 of 100 places, and below the second at 90 of 100.
 constexpr float revival_of_noise = 0.35F;
 constexpr float wide_revival_of_noise = 0.6F;
 

@@ -85,7 +85,7 @@ class NoisyPlaces {
     };
 
     /// Judges the removed displacements once more: noise cannot be predicted, a pattern comes back (see
-    /// TakenStatistics). Independent noise is averaged out first, so that a pattern beneath it is seen.
+    /// RemovalStatistics). Independent noise is averaged out first, so that a pattern beneath it is seen.
     /// @param taken with the positions that would result. @returns at most one per component, ascending by component.
     [[nodiscard]] std::vector<Structure> find_structure(const Denoised& taken,
                                                         const Executor& exec = run_serially) const;

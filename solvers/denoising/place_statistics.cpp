@@ -17,6 +17,12 @@ namespace seamflow {
 
 namespace {
 
+// A place is a vertex, its middle, with the vertices around it. At each of them, the displacement that a denoiser would
+// remove is known. This file measures whether these displacements look like noise or like the shape of the surface.
+// Their autocorrelation tells most: how like a displacement is to the one at a given distance (lag) in a given
+// direction, from 1 (the same) to -1 (the opposite). For noise it falls and stays low. For a pattern it falls and rises
+// again at the distance at which the pattern comes back. This rise is called revival here.
+
 /// The radii of a place, in mean edge lengths: of the vertices near its middle, and of the vertices in its
 /// autocorrelation, which must see a pattern of 16 edge lengths come back; and the most vertices of a place.
 constexpr double near_radius = 7.0;
@@ -27,17 +33,23 @@ constexpr std::size_t most_of_place = 800;
 /// of the middle.
 constexpr float most_medians_of_height = 3.0F;
 constexpr double least_cosine_to_middle = 0.5;
-/// Directions in half a circle, because the autocorrelation is the same in opposite directions; and the distances of a
-/// revival, in edge lengths.
+/// Directions in half a circle, because the autocorrelation is the same in opposite directions; and the distances at
+/// which a revival is looked for, in edge lengths.
 constexpr int n_directions = 12;
 constexpr int first_lag = 3;
 constexpr int last_lag = 18;
-/// The fewest vertices of an autocorrelation; and the fewest pairs of vertices at a distance, per vertex.
+/// The fewest vertices of an autocorrelation; and the fewest pairs of vertices by which its value at one distance in
+/// one direction counts, per vertex.
 constexpr std::size_t fewest_in_correlation = 50;
 constexpr float fewest_pairs = 0.35F;
-/// The number of vertices with quadratic fits, the radii of the fits, and the fewest vertices of a fit.
+/// The columns of TakenAway::displacements.
+constexpr int of_denoiser = 0;
+constexpr int of_low_pass_filter = 1;
+/// Quadratic functions are fitted to the surface around some vertices: the number of these vertices; the two radii of
+/// the fits around each, in edge lengths; and the fewest vertices of a fit.
 constexpr std::size_t n_fits = 48;
-constexpr std::array<double, 2> fit_radii{2.2, 5.0};
+constexpr double narrow_fit = 2.2;
+constexpr double wide_fit = 5.0;
 constexpr int fewest_of_fit = 9;
 
 /// The median of numbers, whose order changes; 0 if there are none.
@@ -50,7 +62,8 @@ float median_of(std::vector<float>& numbers)
     return *middle;
 }
 
-/// The autocorrelation of numbers at points of a plane, on a grid of differences of 1.
+/// The autocorrelation of numbers at points of a plane: for each difference of two points, rounded to whole numbers,
+/// the mean product of their numbers over the mean square.
 class Autocorrelation {
   public:
     Autocorrelation(std::span<const Eigen::Vector2f> points, std::span<const float> numbers)
@@ -68,7 +81,8 @@ class Autocorrelation {
             }
     }
 
-    /// The largest rise of the autocorrelation after it has fallen (see TakenStatistics::revival).
+    /// The largest rise of the autocorrelation after it has fallen: the most, over all directions and lags, by which a
+    /// value exceeds the least value at shorter lags in its direction.
     [[nodiscard]] float revival() const
     {
         float most = 0.0F;
@@ -151,8 +165,8 @@ class Place {
                     noise.push_back(taken_.noise[taken_.topology.face_of[corner]]);
         }
         found.noise = median_of(noise);
-        found.fine = statistics_of(0);
-        found.wide = statistics_of(1);
+        found.fine = statistics_of(of_denoiser);
+        found.wide = statistics_of(of_low_pass_filter);
         found.smoothness = smoothness();
         return found;
     }
@@ -197,9 +211,9 @@ class Place {
         }
     }
 
-    /// The statistics of one column of displacements. @param column of TakenAway::displacements: 0 for the denoiser, 1
-    /// for the low-pass filter.
-    [[nodiscard]] TakenStatistics statistics_of(int column) const
+    /// The statistics of one column of displacements. These are turned into heights: displacements towards the side to
+    /// which the normal of the middle points. @param column of_denoiser or of_low_pass_filter.
+    [[nodiscard]] RemovalStatistics statistics_of(int column) const
     {
         std::vector<float> heights;
         for (std::size_t i = 0; i < vertices_.size(); ++i)
@@ -208,11 +222,13 @@ class Place {
         for (std::size_t i = 0; i < vertices_.size(); ++i)
             if (counts_[i] != 0 && is_near_[i] != 0)
                 sizes.push_back(std::abs(heights[i]));
-        return {median_of(sizes), correlation(heights), revival(heights), kurtosis(heights)};
+        return {.median = median_of(sizes),
+                .correlation = correlation(heights),
+                .revival = revival(heights),
+                .kurtosis = kurtosis(heights)};
     }
 
-    /// The correlation at the two ends of edges (see TakenStatistics). @param heights displacements to one side of the
-    /// surface, one per vertex of vertices_.
+    /// The correlation of heights at the two ends of edges near the middle. @param heights one per vertex of vertices_.
     [[nodiscard]] float correlation(std::span<const float> heights) const
     {
         float products = 0.0F;
@@ -232,7 +248,8 @@ class Place {
         return squares > 0.0F ? products / squares : 0.0F;
     }
 
-    /// The revival of the heights at vertices that face the middle (see TakenStatistics).
+    /// The revival of the heights (see Autocorrelation::revival) at vertices whose normals are near the normal of the
+    /// middle, or near its opposite; 0 if there are too few.
     [[nodiscard]] float revival(std::span<const float> heights) const
     {
         std::vector<Eigen::Vector2f> points;
@@ -257,7 +274,7 @@ class Place {
         return Autocorrelation(points, numbers).revival();
     }
 
-    /// The kurtosis of the heights (see TakenStatistics).
+    /// The kurtosis of the heights: the mean fourth power over the square of the mean square, both about the mean.
     [[nodiscard]] float kurtosis(std::span<const float> heights) const
     {
         double n = 0.0;
@@ -279,7 +296,8 @@ class Place {
         return squares > 0.0 ? static_cast<float>(n * fourths / (squares * squares)) : 0.0F;
     }
 
-    /// The residual of the best quadratic function around a vertex, in edge lengths; -1 if there are too few vertices.
+    /// The root mean square residual of the quadratic height function that fits the vertices around v best, in edge
+    /// lengths; -1 if there are too few vertices.
     /// @param radius in edge lengths.
     [[nodiscard]] double residual(Index v, double radius) const
     {
@@ -308,28 +326,36 @@ class Place {
         return radius * std::sqrt(std::max(rest, 0.0) / (n - 6));
     }
 
-    /// The power of the radius with which the least residuals grow (see PlaceStatistics::smoothness).
+    /// The power of the radius with which the least residuals of quadratic fits grow: 0 for noise, 3 for smooth
+    /// surfaces.
     [[nodiscard]] float smoothness() const
     {
         constexpr double rounding = 1e-9;
-        std::vector<std::array<double, 2>> found;
+        /// The residuals of the fits of both radii around one vertex.
+        struct Residuals {
+            double wide;
+            double narrow;
+        };
+        std::vector<Residuals> found;
         // About a quarter of the vertices are near the middle and have fits.
         const std::size_t stride = std::max<std::size_t>(1, vertices_.size() / (4 * n_fits));
         for (std::size_t i = 0; i < vertices_.size() && found.size() < n_fits; i += stride) {
             if (counts_[i] == 0 || is_near_[i] == 0)
                 continue;
-            const double fine = residual(vertices_[i], fit_radii[0]);
-            const double coarse = residual(vertices_[i], fit_radii[1]);
-            if (fine >= 0.0 && coarse >= 0.0)
-                found.push_back({coarse, fine});
+            const double narrow = residual(vertices_[i], narrow_fit);
+            const double wide = residual(vertices_[i], wide_fit);
+            if (narrow >= 0.0 && wide >= 0.0)
+                found.push_back({wide, narrow});
         }
-        std::ranges::sort(found);
-        std::array<double, 2> totals{rounding, rounding};
+        std::ranges::sort(found, {},
+                          [](const Residuals& of_vertex) { return std::pair(of_vertex.wide, of_vertex.narrow); });
+        Residuals totals{rounding, rounding};
         // The quarter of the vertices with the least residuals of the wider fits.
-        for (std::size_t i = 0; i < (found.size() + 3) / 4; ++i)
-            for (const std::size_t k : {0U, 1U})
-                totals[k] += found[i][k];
-        return static_cast<float>(std::log(totals[0] / totals[1]) / std::log(fit_radii[1] / fit_radii[0]));
+        for (std::size_t i = 0; i < (found.size() + 3) / 4; ++i) {
+            totals.wide += found[i].wide;
+            totals.narrow += found[i].narrow;
+        }
+        return static_cast<float>(std::log(totals.wide / totals.narrow) / std::log(wide_fit / narrow_fit));
     }
 
     const TakenAway& taken_;
@@ -345,8 +371,8 @@ class Place {
     std::vector<Eigen::Vector2f> plane_;
     /// -1 if the normal points to the other side than the normal of the middle, otherwise 1.
     std::vector<float> signs_;
-    /// Whether the vertex counts: it moves and is not left out; whether it is within near_radius; and whether its
-    /// normal is near the normal of the middle or its opposite.
+    /// Whether the vertex counts: it moves and is not left out; whether it is within near_radius of the middle; and
+    /// whether its normal is near the normal of the middle or its opposite.
     std::vector<std::uint8_t> counts_;
     std::vector<std::uint8_t> is_near_;
     std::vector<std::uint8_t> is_facing_;

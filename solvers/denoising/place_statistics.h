@@ -14,13 +14,14 @@ namespace seamflow {
 
 /// Statistics of the displacements of the vertices around a place (a vertex, see NoisyPlaces), by which noise and shape
 /// are distinguished. Displacements are those along the normals, in mean lengths of the edges at each vertex.
-struct TakenStatistics {
+struct RemovalStatistics {
     /// The median of the absolute values.
     float median = 0.0F;
     /// The correlation of displacements at the two ends of edges: 0 or less for noise that is independent at
     /// neighbours.
     float correlation = 0.0F;
-    /// How much the autocorrelation rises again: the most, over 24 directions and all distances of 3 to 18 edges, by
+    /// How much the autocorrelation (the correlation of the displacements at two vertices, by their distance and
+    /// direction) rises again after it has fallen: the most, over 24 directions and all distances of 3 to 18 edges, by
     /// which it exceeds its least value at shorter distances in this direction. Noise cannot be predicted; a pattern
     /// comes back.
     float revival = 0.0F;
@@ -32,9 +33,9 @@ struct TakenStatistics {
 /// All statistics of a place.
 struct PlaceStatistics {
     /// Statistics of the displacements that the denoiser would remove.
-    TakenStatistics fine;
+    RemovalStatistics fine;
     /// Statistics of the displacements that a low-pass filter, which reaches further, would remove.
-    TakenStatistics wide;
+    RemovalStatistics wide;
     /// The median of the noise that the denoiser estimates at faces, in edge lengths.
     float noise = 0.0F;
     /// The power of the radius with which the least residuals of local quadratic fits grow: 0 for noise, 3 for smooth

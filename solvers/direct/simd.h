@@ -8,8 +8,11 @@
 
 #include "partition/index.h"
 
-// Our own SIMD, because registers are chosen inside kernels that call each other: libraries (xsimd, highway) choose
-// between whole files or functions that are compiled several times, which would split the kernels.
+// SIMD: one instruction for several numbers (lanes) in a register. A kernel, which is a function with all functions
+// that it calls inlined into it, is compiled once for each width of registers; when it is called, the width is chosen
+// that the machine has (see SEAMFLOW_WIDE and with_simd_width). No library is used for this: xsimd and highway let the
+// machine choose between whole files, or between functions that they compile several times. Each kernel would have to
+// be moved out of its file, or be divided at the functions that it calls.
 
 /// Marks a function whose loops gain from wider registers: it is compiled once more for machines that have them. The
 /// operations, and so the results, are the same. Such a function must not throw: with GCC 12, exceptions do not leave
@@ -33,8 +36,8 @@ struct SimdVectorOf {
 }  // namespace detail
 
 /// `Lanes` neighbouring numbers, in a register if one is that wide. The type is explicit, because compilers do not
-/// vectorise sums in loops. Values are loaded into and not returned, because vectors have no registers of their own
-/// between functions.
+/// vectorise sums in loops. Functions load values into a vector that the caller passes, and return no vectors: without
+/// registers of this width, compilers have no common way to return it.
 /// @param Lanes a power of two.
 template <class Number, Index Lanes>
 using SimdVector = typename detail::SimdVectorOf<Number, Lanes>::Type;
@@ -49,6 +52,7 @@ template <class Number, class Vector>
     vector = __builtin_convertvector(numbers, Vector);
 }
 
+/// Stores the elements of a vector as consecutive numbers, which need not be aligned.
 template <class Number, class Vector>
 [[gnu::always_inline]] inline void store(const Vector& vector, Number* to)
 {
@@ -67,11 +71,13 @@ struct SimdBlock {
 
     Vector registers[n_registers] = {};
 
+    /// Loads as many neighbouring numbers as the block has lanes.
     [[gnu::always_inline]] void load_from(const Number* from)
     {
         for (Index p = 0; p < n_registers; ++p)
             load(from + p * lanes_of_register, registers[p]);
     }
+    /// Adds factor times the numbers of another block.
     [[gnu::always_inline]] void add_product(Number factor, const SimdBlock& numbers)
     {
         for (Index p = 0; p < n_registers; ++p)

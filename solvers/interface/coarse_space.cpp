@@ -14,6 +14,15 @@ namespace seamflow {
 
 namespace {
 
+// The letters of this file:
+// Γ  the vertices that several sub-meshes share. Each of these sub-meshes has a copy of the vertex.
+// S  the matrix of the equations on Γ that is left when the unknowns within all sub-meshes are eliminated (the Schur
+//    complement). It is the sum of the complements of the sub-meshes, each on the sub-mesh's part of Γ.
+// Z  the matrix whose columns are the functions of the coarse space, each one value per vertex of Γ.
+// E  Zᵀ S Z, the matrix of the unknowns of the coarse space: one coefficient per function.
+// A function is 0 outside one class, the vertices that the same sub-meshes share. S Z and E are sums, too: a sub-mesh
+// has a share in them, for the functions on its part of Γ.
+
 /// The amount added to the diagonal of E, relative to it: functions can cancel each other, and then E is singular;
 /// since they also cancel in Z, their arbitrary coefficients do no harm.
 constexpr double regularisation = 1e-8;
@@ -27,7 +36,7 @@ IndexLists inverse_lists(std::span<const Index> list_of, Index n_lists)
     });
 }
 
-// Eight rows are processed at a time, in two of these vectors.
+// Eight rows are processed at a time, which is DenseFactor::lanes, in two of these vectors.
 using FourDoubles = SimdVector<double, 4>;
 static_assert(DenseFactor::lanes == 8);
 
@@ -53,12 +62,12 @@ template <class Number>
     high += of_a * of_b;
 }
 
-/// The distance, in numbers, at which products are prefetched before their use. They have left the caches since their
-/// last use.
+/// The distance, in numbers, at which the columns of S Z are prefetched before their use: they have left the caches
+/// since their last use. And the numbers of a cache line.
 constexpr std::size_t products_ahead = 2048;
 constexpr std::size_t cache_line = 64 / sizeof(float);
 
-/// column · v for three columns of v. Prefetches the numbers at a certain distance after the column.
+/// column · v for three columns of v. Prefetches the numbers at the distance products_ahead after the column.
 /// @param v DenseFactor::room by 3.
 SEAMFLOW_WIDE void multiply_column(const float* column, const Columns& v, Point& result)
 {
@@ -106,7 +115,8 @@ CoarseSpace::CoarseSpace(const InterfaceCopies& copies, InterfaceRanks& ranks)
     coefficients_.resize(size(), 3);
 }
 
-/// Finds the classes of Γ and numbers their functions: fills function_, copies_in_, functions_at_, terms_of_ and sent_.
+/// Finds the classes of Γ (vertices that the same sub-meshes share) and numbers their functions: fills function_,
+/// copies_in_, functions_at_, terms_of_ and sent_.
 void CoarseSpace::find_functions()
 {
     std::vector<VertexClass> here;
@@ -172,7 +182,8 @@ std::vector<CoarseSpace::VertexClass> CoarseSpace::classes_of_all(const std::vec
     return all;
 }
 
-/// Computes values_at_ from the weights of all copies. The function of a vertex's first copy is the constant.
+/// Computes values_at_ from the weights of all copies. The function of a vertex's first copy is the constant 1; that of
+/// another copy is the weight of its sub-mesh minus the mean of this weight over the class.
 void CoarseSpace::set_functions(std::span<const double> weights, const Executor& exec)
 {
     for_each(exec, size(), [&](Index f) {
@@ -190,7 +201,8 @@ void CoarseSpace::set_functions(std::span<const double> weights, const Executor&
     });
 }
 
-/// Fills functions_at_ and terms_of_.
+/// Lists the functions on each sub-mesh's part of Γ, and where each function is in these lists: fills functions_at_ and
+/// terms_of_.
 void CoarseSpace::list_functions(const std::vector<VertexClass>& classes)
 {
     functions_at_ = make_lists(ranks_.n_sub_meshes(), [&](auto&& add) {
@@ -205,7 +217,7 @@ void CoarseSpace::list_functions(const std::vector<VertexClass>& classes)
     terms_of_ = inverse_lists(functions_at_.values, size());
 }
 
-/// Fills sent_.
+/// Decides what each rank (a process that owns some of the sub-meshes) sends to the others in `correct`: fills sent_.
 void CoarseSpace::divide_terms(const std::vector<VertexClass>& classes)
 {
     const std::vector<Index>& holders = ranks_.holders();
@@ -260,6 +272,8 @@ void CoarseSpace::analyse()
         energy_.diagonal_slots.push_back(upper.slot({u, u}));
 }
 
+/// Computes the values of the functions, then each sub-mesh's share of S Z and of E = Zᵀ S Z, and adds up and
+/// factorises E.
 void CoarseSpace::prepare(std::span<const DenseFactor> complements, std::span<const double> weights,
                           const Executor& exec)
 {
@@ -275,14 +289,17 @@ void CoarseSpace::prepare(std::span<const DenseFactor> complements, std::span<co
     energy_.factor = energy_.solver->factorise<double>(energy_.values, energy_.memory, energy_.workspace);
 }
 
-/// Computes the Share of a sub-mesh: S Z, and its term of E. With S = R Rᵀ that term is (Rᵀ Z)ᵀ (Rᵀ Z), which rounding
-/// cannot make indefinite.
+/// Computes the Share of sub-mesh s in S Z and in E, for the functions on its part of Γ. With S = R Rᵀ the share in E
+/// is (Rᵀ Z)ᵀ (Rᵀ Z), which rounding cannot make indefinite.
+/// @param schur the sub-mesh's complement, which is its share of S.
 void CoarseSpace::compute_share(Index s, const DenseFactor& schur)
 {
     const auto functions = functions_at_[ranks_.global_numbers()[s]];
     Share& share = shares_[s];
     const std::size_t room = DenseFactor::room(copies_.n_in(s));
+    // DenseFactor multiplies three columns at a time.
     const std::size_t n_columns = (functions.size() + 2) / 3 * 3;
+    // Z, restricted to the sub-mesh.
     AlignedFloats columns;
     columns.assign(n_columns * room);
     for (Index i = 0; i < copies_.n_in(s); ++i)
@@ -291,9 +308,10 @@ void CoarseSpace::compute_share(Index s, const DenseFactor& schur)
             columns.data()[column * room + usize(i)] += static_cast<float>(values_at_[copy]);
         }
     share.product.assign(n_columns * room);
-    // Each product overwrites three columns of Z by those of Rᵀ Z.
+    // Each call writes three columns of S Z, and overwrites those of Z by Rᵀ Z.
     for (std::size_t c = 0; c < n_columns; c += 3)
         schur.multiply(columns_at(columns.data() + c * room, room), columns_at(share.product.data() + c * room, room));
+    // Rᵀ Z.
     const Eigen::MatrixXd roots = Eigen::Map<const Eigen::MatrixXf>(columns.data(), static_cast<Eigen::Index>(room),
                                                                     static_cast<Eigen::Index>(functions.size()))
                                       .cast<double>();
@@ -334,6 +352,8 @@ void CoarseSpace::assemble()
             energy_.values[diagonal] > 0.0 ? (1.0 + regularisation) * energy_.values[diagonal] : 1.0;
 }
 
+/// Adds Z E⁻¹ Zᵀ (residual - S y) to y. `sums_` becomes Zᵀ (residual - S y): the sum for a function begins with its
+/// term of Zᵀ residual, from which the shares of the sub-meshes in Zᵀ S y are subtracted.
 void CoarseSpace::correct(const Points& residual, Points& y, const Executor& exec)
 {
     if (!energy_.factor)
@@ -366,7 +386,7 @@ void CoarseSpace::correct(const Points& residual, Points& y, const Executor& exe
     });
 }
 
-/// Subtracts the shares of all sub-meshes in Zᵀ S y from the sum for function f.
+/// Subtracts the shares of all sub-meshes in Zᵀ S y, which are the terms of f, from the sum for function f.
 void CoarseSpace::subtract_terms(Index f)
 {
     Point sum = sums_.row(f);

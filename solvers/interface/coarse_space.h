@@ -14,10 +14,12 @@
 
 namespace seamflow {
 
-/// The coarse space: few unknowns for the component of the error that single sub-meshes cannot reduce. An equivalence
-/// class of Γ is a set of vertices that the same sub-meshes share. On each class, the columns of Z are functions that
-/// equal a sub-mesh's weights W there, and 0 elsewhere. Their basis is well conditioned where weights hardly differ:
-/// the constant, and the weights of all sub-meshes except the first minus their mean; for a single vertex only the
+/// The coarse space: few unknowns for the component of the error that single sub-meshes cannot reduce, when the
+/// equations S x = r on Γ, the vertices that sub-meshes share, are solved by an iteration. S is the Schur complement, a
+/// sum of one complement for each sub-mesh. An equivalence class of Γ is a set of vertices that the same sub-meshes
+/// share. On each class, the columns of Z are functions that equal a sub-mesh's weights W there, and 0 elsewhere; the
+/// weights divide each vertex among its sub-meshes. Their basis is well conditioned where weights hardly differ: the
+/// constant, and the weights of all sub-meshes except the first minus their mean; for a single vertex only the
 /// constant. The coarse space balances the Neumann-Neumann preconditioner (Mandel, "Balancing domain decomposition",
 /// 1993, with one function for all classes of a sub-mesh) in the form in which an iteration needs no second product
 /// with S (A-DEF2 of Tang, Nabben, Vuik and Erlangga 2009): y becomes y + Z E⁻¹ Zᵀ (r - S y), where E = Zᵀ S Z.
@@ -33,8 +35,8 @@ class CoarseSpace {
     /// Number of unknowns.
     [[nodiscard]] Index size() const { return copies_in_.size(); }
 
-    /// Makes S Z and factorises E; all ranks call this together.
-    /// @param complements one per sub-mesh; the complements of remote sub-meshes are not read.
+    /// Makes S Z and factorises E = Zᵀ S Z; all ranks call this together.
+    /// @param complements one per sub-mesh, which add up to S; the complements of remote sub-meshes are not read.
     /// @param weights one per copy, positive; the weights of a vertex add up to 1, or are all 0 for a vertex where all
     ///        functions are to be 0.
     void prepare(std::span<const DenseFactor> complements, std::span<const double> weights, const Executor& exec);
@@ -44,7 +46,7 @@ class CoarseSpace {
     void correct(const Points& residual, Points& y, const Executor& exec);
 
   private:
-    /// The matrix E in the elimination ordering, and its factor.
+    /// The matrix E = Zᵀ S Z, in the elimination ordering, and its factor.
     struct Energy {
         /// Per function: its unknown.
         std::vector<Index> unknown_of;

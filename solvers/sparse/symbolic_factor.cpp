@@ -10,7 +10,11 @@ namespace seamflow {
 
 namespace {
 
+// L is the factor of a matrix. A supernode is a run of consecutive columns of L that are stored with the same rows
+// below them, so that they can be processed together. Entries of L that are stored but stay zero are called zeros here.
+
 /// The entries on and above the diagonal of the pattern made symmetric, with renumbered unknowns.
+/// @param position the new number of each unknown.
 SparsePattern symmetrised(const SparsePattern& pattern, const std::vector<Index>& position)
 {
     std::vector<MatrixEntry> entries;
@@ -26,7 +30,8 @@ SparsePattern symmetrised(const SparsePattern& pattern, const std::vector<Index>
     return make_pattern(pattern.n(), entries);
 }
 
-/// The elimination tree, without entries that stay zero.
+/// The elimination tree, whose counts have no zeros: a column counts the rows in which L has an entry. The entry of a
+/// row and a column of the matrix makes entries of the same row in all columns on the way up from the column.
 EliminationTree make_tree(const SparsePattern& upper)
 {
     EliminationTree tree{std::vector<Index>(upper.n(), -1), std::vector<Index>(upper.n(), 0)};
@@ -51,7 +56,8 @@ bool belong_together(const EliminationTree& tree, Index column)
 }
 
 /// The last column of the supernode that begins with the column `first`, without merging: its columns have the same
-/// rows, apart from their own. It has at most most_columns columns; the last n_last columns are one supernode.
+/// rows in L, apart from their own. It has at most most_columns columns. The last n_last columns of the matrix are one
+/// supernode in any case.
 Index end_of_supernode(const EliminationTree& tree, Index first, Index n_last, Index most_columns)
 {
     const auto n = static_cast<Index>(tree.parent.size());
@@ -61,28 +67,36 @@ Index end_of_supernode(const EliminationTree& tree, Index first, Index n_last, I
     return last;
 }
 
-/// Narrower supernodes are merged up to this width.
-constexpr Index most_relaxed_columns = 32;
+// Supernodes are merged into wider ones, which are faster, as long as this adds few zeros (measured on triangle meshes:
+// more zeros save no more time, but take memory).
 
-/// Whether a supernode of `width` columns, and `n_rows` rows below them, may have `zeros` entries that stay zero: fewer
-/// and wider supernodes are faster (measured on triangle meshes; more zeros save no more time, but take memory).
-bool is_worth(double zeros, Index width, Index n_rows)
+/// The largest width of a merged supernode, and the fraction of its entries that may be zeros.
+constexpr Index most_merged_columns = 32;
+constexpr double most_zeros = 0.15;
+/// The same for narrow supernodes, which may have more of them.
+constexpr Index most_narrow_columns = 8;
+constexpr double most_zeros_if_narrow = 0.4;
+
+/// Whether a supernode of `width` columns, and `n_rows` rows below them, may have so many zeros.
+bool may_have(double zeros, Index width, Index n_rows)
 {
     const double size = 0.5 * width * (width + 1.0) + 1.0 * width * n_rows;
-    return (width <= 8 && zeros <= 0.4 * size) || (width <= most_relaxed_columns && zeros <= 0.15 * size);
+    return (width <= most_narrow_columns && zeros <= most_zeros_if_narrow * size) ||
+           (width <= most_merged_columns && zeros <= most_zeros * size);
 }
 
-/// The last column of the widest supernode from `first` on that, after merging, is worth its zeros (see is_worth), and
-/// in which the parents of all columns but the last are in the supernode: then these columns have no further row that
-/// the last column does not have.
+/// Merges the supernode that begins with the column `first` with supernodes after it.
 /// @param last the last column without merging.
-Index end_of_relaxed_supernode(const EliminationTree& tree, Index first, Index last, Index n_last)
+/// @returns the last column of the widest supernode for which two conditions hold. It has few zeros (see may_have). And
+/// the parents of all its columns but the last are in it: then the last column has all rows below the supernode that
+/// any of its columns has.
+Index end_of_merged_supernode(const EliminationTree& tree, Index first, Index last, Index n_last)
 {
     const auto n = static_cast<Index>(tree.parent.size());
     double entries_before = 0.0;
     Index furthest_parent = first;
     Index next_column = first;
-    for (Index top = last; top >= 0 && top < std::min(n - n_last, first + most_relaxed_columns);
+    for (Index top = last; top >= 0 && top < std::min(n - n_last, first + most_merged_columns);
          top = tree.parent[top]) {
         for (; next_column < top; ++next_column) {
             const Index parent = tree.parent[next_column];
@@ -95,7 +109,7 @@ Index end_of_relaxed_supernode(const EliminationTree& tree, Index first, Index l
         const double zeros = 0.5 * (width - 1.0) * width + (width - 1.0) * (n_rows + 1.0) - entries_before;
         // Only whole supernodes are merged.
         const bool is_end = top + 1 == n - n_last || !belong_together(tree, top);
-        if (is_end && furthest_parent <= top && is_worth(zeros, width, n_rows))
+        if (is_end && furthest_parent <= top && may_have(zeros, width, n_rows))
             last = top;
     }
     return last;
@@ -107,10 +121,12 @@ enum class Zeros {
     Few,
 };
 
+/// The limits of supernodes.
 struct SupernodeLimits {
     Zeros zeros;
     /// The number of last unknowns, which form one supernode.
     Index n_last;
+    /// The most columns of a supernode before it is merged.
     Index most_columns;
 };
 
@@ -128,7 +144,7 @@ void list_supernodes(const SparsePattern& upper, const EliminationTree& tree, co
     for (Index first = 0, last = 0; first < n; first = ++last) {
         last = end_of_supernode(tree, first, limits.n_last, limits.most_columns);
         if (limits.zeros == Zeros::Few)
-            last = end_of_relaxed_supernode(tree, first, last, limits.n_last);
+            last = end_of_merged_supernode(tree, first, last, limits.n_last);
         std::fill(supernode_of.begin() + first, supernode_of.begin() + last + 1, factor.n_supernodes());
         parent.push_back(tree.parent[last]);
         factor.first.push_back(last + 1);
@@ -176,7 +192,7 @@ SymbolicFactor make_symbolic_factor(const SparsePattern& pattern)
     factor.update_offsets.assign(usize(n) + 1, 0);
     const SparsePattern upper = symmetrised(pattern, factor.position);
     list_supernodes(
-        upper, make_tree(upper), {Zeros::None, 0, n}, factor,
+        upper, make_tree(upper), {.zeros = Zeros::None, .n_last = 0, .most_columns = n}, factor,
         [&](Index row, Index supernode, Index row_index) {
             factor.updates.push_back({supernode, row_index});
             ++factor.update_offsets[row + 1];
@@ -194,8 +210,9 @@ SymbolicFactor make_symmetric_symbolic_factor(const SparsePattern& upper, Index 
     SymbolicFactor factor;
     row_indices.resize(upper.rows.size());
     list_supernodes(
-        upper, tree.parent.empty() ? own_tree : tree, {Zeros::Few, n_last, most_columns}, factor,
-        [](Index, Index, Index) {}, [&](Index entry, Index row_index) { row_indices[entry] = row_index; });
+        upper, tree.parent.empty() ? own_tree : tree,
+        {.zeros = Zeros::Few, .n_last = n_last, .most_columns = most_columns}, factor, [](Index, Index, Index) {},
+        [&](Index entry, Index row_index) { row_indices[entry] = row_index; });
     return factor;
 }
 

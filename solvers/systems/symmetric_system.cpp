@@ -51,8 +51,8 @@ SparsePattern SymmetricSystem::order_unknowns(const std::vector<VertexPair>& pai
     return std::move(upper.pattern);
 }
 
-/// Lists the couplings that are not entries of the matrix: first the couplings with fixed vertices, then those of
-/// vertices of Γ with vertices beyond Γ, in the order of the vertices of Γ.
+/// Lists the couplings, which are the coefficients in rows of unknowns that are not entries of the matrix: first those
+/// at fixed vertices, then those of vertices of Γ at vertices beyond Γ, in the order of the vertices of Γ.
 void SymmetricSystem::list_couplings(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of)
 {
     const auto is_unknown = [&](Index v) { return unknown_of[v] >= 0; };
@@ -135,8 +135,9 @@ SubMeshSystem::Assembled SymmetricSystem::assemble(const Points& positions, cons
     return {values.first(matrix_.n_entries())};
 }
 
-/// Moves the coefficients at a vertex of Γ that is known in this step out of the matrix. A coefficient between two such
-/// vertices is moved with the first of them, and is 0 for the second.
+/// Moves the coefficients at a vertex of Γ where the sub-mesh follows, so that its value is known in this step, out of
+/// the matrix, and makes its row that of the identity. A coefficient between two such vertices is moved with the first
+/// of them, and is 0 for the second.
 void SymmetricSystem::make_dirichlet_row(std::size_t i, std::span<double> values)
 {
     for (Index e = rows_[i].first_entry; e < rows_[i + 1].first_entry; ++e) {
@@ -145,7 +146,10 @@ void SymmetricSystem::make_dirichlet_row(std::size_t i, std::span<double> values
     values[matrix_.diagonal_slot(rows_[i].unknown)] = 1.0;
 }
 
-/// Adds the response of the other side to the diagonal, unless that would make the diagonal of dt K negative.
+/// Adds the responses of the other side to the row of a vertex v of Γ, unless they would make the diagonal of dt K
+/// negative. A vertex w beyond Γ is at Ŵ_w + ρ_w (V_v - Vᵏ_v): at its predicted position Ŵ_w, moved by the fraction ρ_w
+/// of the movement of v. So its term a_w V_w adds a_w ρ_w to the diagonal, and a_w ρ_w Vᵏ_v - a_w Ŵ_w to the right-hand
+/// side (see fill_right_hand_side).
 /// @param diagonal dt K_vv.
 void SymmetricSystem::make_transmission_row(std::size_t i, const Points& positions, double time_step, double diagonal,
                                             std::span<double> values)
@@ -157,6 +161,8 @@ void SymmetricSystem::make_transmission_row(std::size_t i, const Points& positio
     values[matrix_.diagonal_slot(rows_[i].unknown)] += rows_[i].response;
 }
 
+/// Sets the contributions of the predicted positions beyond Γ to the right-hand side.
+/// @param other_side the predicted positions, of which those beyond Γ are read.
 void SymmetricSystem::use_other_side(const Points&, const Points& other_side)
 {
     for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
@@ -214,12 +220,14 @@ void SymmetricSystem::solve(const Factor& factor, const Points& positions, Point
             solution.row(vertex_at(i)) = workspace.right_hand_side.row(rows_[i].unknown);
 }
 
-/// Computes the right-hand side.
+/// Computes the right-hand side: M Vᵏ, and dt M w V⁰ if there is an attachment with weights w; less the coefficients at
+/// known values; and on Γ, where the sub-mesh leads, what the vertices beyond Γ contribute (see make_transmission_row).
 /// @param positions Vᵏ, or the data that the step is applied to. @param known the values at fixed vertices, and on Γ
 /// where the sub-mesh follows.
 void SymmetricSystem::fill_right_hand_side(const Points& positions, const Points& known, Columns& right) const
 {
     set_rows(right, matrix_.n());
+    // Auxiliary unknowns, which are no vertices, have no mass.
     for (Index u = 0; u < matrix_.n(); ++u)
         right.row(u) = matrix_.is_vertex(matrix_.vertex_of[u]) ? Point(mass_[u] * positions.row(matrix_.vertex_of[u]))
                                                                : Point(Point::Zero());
@@ -237,6 +245,7 @@ void SymmetricSystem::fill_right_hand_side(const Points& positions, const Points
             right.row(entries_[e].unknown) -= entries_[e].coefficient * known.row(vertex_at(i));
     for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
         const InterfaceRow& row = rows_[i];
+        // Where the sub-mesh follows, the row is that of the identity.
         if (row.role == InterfaceRole::Follows)
             right.row(row.unknown) = known.row(vertex_at(i));
         else

@@ -10,12 +10,16 @@
 
 namespace seamflow {
 
-/// The rows on Γ where a sub-mesh leads.
+/// The rows of a sub-mesh on Γ, the vertices that it shares with other sub-meshes. At each of them the sub-mesh either
+/// leads, which means that its equations determine the vertex, or follows: then the position after the step is known
+/// from another sub-mesh, which has solved before (see InterfaceRole).
 enum class SymmetricRows {
     /// No rows: the sub-mesh follows everywhere.
     Dirichlet,
-    /// The row of the undecomposed step. The other side is predicted, and responds to the movement of Γ (see
-    /// predicted_side.h).
+    /// Where the sub-mesh leads, the row of the undecomposed step, which reaches vertices beyond Γ. Their positions are
+    /// predicted for Γ at rest. If the vertex v of the row moves, a vertex w beyond Γ is assumed to follow by a
+    /// fraction ρ_w of its movement, the response of the other side: V_w = Ŵ_w + ρ_w (V_v - Vᵏ_v), Ŵ being the
+    /// prediction (see predicted_side.h).
     Transmission,
 };
 
@@ -62,9 +66,10 @@ class SymmetricSystem final : public SubMeshSystem {
         Index first_entry;
         Index first_beyond;
         InterfaceRole role = InterfaceRole::Follows;
-        /// The response of the other side, added to the diagonal; 0 if there is none.
+        /// The sum of a_w ρ_w over the vertices w beyond Γ, a_w being the coefficient in dt K: by so much the responses
+        /// of the other side change the diagonal. 0 if there are none.
         double response = 0.0;
-        /// The contribution of the vertices beyond Γ to the right-hand side.
+        /// The contribution of the predicted positions beyond Γ to the right-hand side: minus the sum of a_w Ŵ_w.
         Point beyond = Point::Zero();
     };
 
@@ -83,7 +88,8 @@ class SymmetricSystem final : public SubMeshSystem {
     /// The matrix. Its further values are the coefficients of `fixed_`, then those of `beyond_`.
     SymmetricMatrix matrix_;
     std::unique_ptr<DirectSolver> solver_;
-    /// The coefficients at own vertices that are never unknown; the coefficients at vertices of the halo.
+    /// The coefficients at own vertices that are never unknown; the coefficients at vertices beyond Γ, which are those
+    /// of the halo.
     std::vector<Coupling> fixed_;
     std::vector<Coupling> beyond_;
     /// #Γ + 1: the rows at the vertices of Γ, and the end of the last. Empty with SymmetricRows::Dirichlet.
@@ -93,7 +99,7 @@ class SymmetricSystem final : public SubMeshSystem {
     std::vector<double> mass_;
     /// dt of the present step, in length².
     double time_step_ = 0.0;
-    /// Whether the attachment to V⁰ is on the right-hand side.
+    /// Whether the right-hand side has the attachment, which pulls each vertex to its place in V⁰.
     bool pulls_ = false;
 };
 

@@ -16,7 +16,7 @@ namespace {
 struct RowGeometry {
     const PolygonMesh& mesh;
     const Topology& topology;
-    /// The positions, by vertices, and the same by rows.
+    /// The positions, by vertices, and the same by rows: in the order of the rows of the matrix.
     const Points& positions;
     const Points& of_rows;
     const WholeMeshRows& rows;
@@ -76,14 +76,18 @@ void with_rows(const ScaledLaplacian& laplacian, const RowGeometry& geometry, Ac
     });
 }
 
-/// The most that one pass in single precision reduces a residual by; the fraction of a residual that may be left after
-/// a pass that makes enough progress.
-constexpr double most_reduction_at_once = 1e-4;
-constexpr double most_left = 0.5;
-/// The vertex that is farthest from the solution converges more slowly than the average, by this factor.
+// A step is solved in passes: iterations in single precision from a residual on. After a pass the residual of the
+// solution so far is recomputed in double precision, and the next pass begins from it.
+
+/// The least fraction of a residual that a pass can leave, because of its single precision; and the most that a pass
+/// leaves that makes enough progress.
+constexpr double least_left_by_pass = 1e-4;
+constexpr double most_left_by_pass = 0.5;
+/// The distance of the vertex that is farthest from the solution is underestimated by mean rates of convergence, by
+/// this factor: there, iterations converge more slowly.
 constexpr double slower_somewhere = 2.5;
-/// A pass that leaves more than this fraction of the residual does not show at which rate updates decrease.
-constexpr double shortest_pass = 0.1;
+/// A pass that leaves more than this fraction of the residual is too short to show at which rate updates decrease.
+constexpr double most_left_for_rate = 0.1;
 
 Eigen::Array4f to_row(const Point& point)
 {
@@ -112,7 +116,8 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
     }
 }
 
-/// Assembles the matrix, and the residual at Vᵏ⁺¹ = Vᵏ.
+/// Assembles the matrix with its entries in single precision, if it keeps exact entries also these, and the residual at
+/// Vᵏ⁺¹ = Vᵏ.
 /// @param of_rows V, by rows.
 WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& of_rows, const Executor& exec)
 {
@@ -206,7 +211,8 @@ double WholeMeshSystem::measure(const Points& of_rows, const Points& data, bool 
         .value();
 }
 
-/// The matrix keeps its entries in double precision, with which residuals are recomputed.
+/// Lets the matrix also keep its entries in double precision, with which residuals are recomputed, from the next call
+/// of `assemble` on.
 void WholeMeshSystem::keep_exact()
 {
     matrix_.keep_exact();
@@ -246,7 +252,7 @@ double WholeMeshSystem::farthest_move(const Executor& exec) const
 double WholeMeshSystem::estimate_distance_after(const BlockRowMatrix::Result& pass, double length, double before_pass,
                                                 double left, double distance_before)
 {
-    if (pass.residual > shortest_pass && distance_before > 0.0)
+    if (pass.residual > most_left_for_rate && distance_before > 0.0)
         return distance_before * left / before_pass;
     const double rate = std::pow(pass.residual, 1.0 / pass.iterations);
     const double distance = slower_somewhere * (rate < 1.0 ? pass.last_update * rate / (1.0 - rate) : pass.last_update);
@@ -292,7 +298,8 @@ WholeMeshSystem::Result WholeMeshSystem::step_with_kept_matrix(const Points& bef
         copy(exec, before, after);
         return {};
     }
-    return solve({squared, kept_of_rows_, data_, &before, true}, stop, after, exec);
+    return solve({.squared = squared, .of_rows = kept_of_rows_, .data = data_, .before = &before, .is_in_rows = true},
+                 stop, after, exec);
 }
 
 WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_step, const IterationStop& stop,
@@ -302,17 +309,26 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
     if (keeps_matrix_)
         return step_with_kept_matrix(before, stop, after, exec);
     before_ = &before;
+    // Until the result is written, the memory of `after` has Vᵏ by rows.
+    const Points& before_by_rows = after;
     list_by_rows(before, after, exec);
-    if (guess != nullptr || stop.tolerance <= most_reduction_at_once)
+    // These steps recompute residuals: that of the guess, or one that the first pass cannot reduce to the tolerance.
+    if (guess != nullptr || stop.tolerance <= least_left_by_pass)
         keep_exact();
-    const Sizes sizes = assemble(after, exec);
+    const Sizes sizes = assemble(before_by_rows, exec);
     // The residual is rounding error alone: the surface is as smooth as it can be.
     if ((sizes.residual <= sizes.rounding).all()) {
         copy(exec, before, after);
         return {};
     }
     matrix_.factorise(exec);
-    return solve({sizes.residual.sum(), after, after, &before, false, guess}, stop, after, exec);
+    return solve({.squared = sizes.residual.sum(),
+                  .of_rows = before_by_rows,
+                  .data = before_by_rows,
+                  .before = &before,
+                  .is_in_rows = false,
+                  .guess = guess},
+                 stop, after, exec);
 }
 
 /// Lists numbers of vertices by rows.
@@ -348,10 +364,14 @@ WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const Iterati
         else
             after_.row(i).setZero();
     });
-    return solve({squared.value(), result, data_, nullptr, true}, stop, result, exec);
+    // Until the result is written, its memory has Vᵏ by rows.
+    const Points& before_by_rows = result;
+    return solve(
+        {.squared = squared.value(), .of_rows = before_by_rows, .data = data_, .before = nullptr, .is_in_rows = true},
+        stop, result, exec);
 }
 
-/// Solves for the result of the step on V, or on other data.
+/// Solves for the result of the step on V, or on other data, by passes.
 /// @param after in: V, by rows, unless the matrix is kept. Out: the result, by vertices.
 WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const IterationStop& stop, Points& after,
                                                const Executor& exec)
@@ -359,6 +379,7 @@ WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const
     const double root = std::sqrt(time_step_);
     PassStart start = start_pass(beginning.squared, exec);
     const double first = start.norm;
+    // The fraction of the first residual that is left.
     double left = 1.0;
     double distance = 0.0;
     bool is_in_rows = beginning.is_in_rows;
@@ -383,19 +404,19 @@ WholeMeshSystem::Result WholeMeshSystem::solve(const Beginning& beginning, const
             renew();
         }
     }
-    StoppingCriterion criterion(stop, most_left, left);
+    StoppingCriterion criterion(stop, most_left_by_pass, left);
     const auto current = [&](Index i) {
         return is_in_rows ? Point(after_.row(i)) : Point(before_->row(rows_.vertices.values[i]));
     };
     while (!criterion.is_met()) {
         const BlockRowMatrix::Result pass = matrix_.iterate(
-            start.squared, std::max(stop.tolerance / left, most_reduction_at_once), criterion.iterations_left(), exec);
+            start.squared, std::max(stop.tolerance / left, least_left_by_pass), criterion.iterations_left(), exec);
         const double length = root / start.scale;
         const double before_pass = std::exchange(left, left * pass.residual);
         // The residual after the first pass is known well enough without recomputing it; the residual after a later
         // pass is near the rounding error.
         const bool is_first = before_pass == 1.0;
-        const bool is_last = is_first && left <= stop.tolerance && pass.residual > most_reduction_at_once;
+        const bool is_last = is_first && left <= stop.tolerance && pass.residual > least_left_by_pass;
         const auto moved = [&](Index i) -> Point {
             return current(i) + length * matrix_.increment(i).head<3>().cast<double>().matrix().transpose();
         };

@@ -22,8 +22,10 @@ namespace seamflow {
 /// factorisation. The matrix and the vectors of an iteration are in single precision. For tolerances that need it, the
 /// residual is recomputed in double precision with entries that are stored beside the matrix, so that rounding limits
 /// no tolerance. Three columns are iterated at once. Sums are taken in a fixed order: the bits do not depend on how
-/// loops are run. For symmetric Laplacians. An attachment to V⁰ adds dt M w to the diagonal and dt M w (V⁰ - Vᵏ) to the
-/// right-hand side. If terms keep M, all steps have the matrix of V⁰.
+/// loops are run. For symmetric Laplacians (K and M are their stiffness and mass matrices). An attachment to V⁰ adds dt
+/// M w to the diagonal and dt M w (V⁰ - Vᵏ) to the right-hand side. If terms keep M, all steps have the matrix of V⁰.
+/// Arrays are by vertices, as in the mesh, or by rows: in the order of the rows of the matrix, which is another one
+/// (see WholeMeshRows).
 class WholeMeshSystem {
   public:
     /// @param mesh, topology must outlive the system. Vertices that do not move have no row.

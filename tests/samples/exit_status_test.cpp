@@ -11,7 +11,7 @@
 
 #include "partition/errors.h"
 #include "samples/process/exit_status.h"
-#include "samples/runs/smoothing_run.h"
+#include "samples/runs/command_run.h"
 
 using namespace seamflow;
 

@@ -11,7 +11,7 @@
 #include "partition/vector_area.h"
 #include "samples/meshes/meshes.h"
 #include "samples/report/surface_change.h"
-#include "samples/runs/smoothing_run.h"
+#include "samples/report/surface_remarks.h"
 #include "tests/support/junction_meshes.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"

@@ -42,6 +42,6 @@ TEST_CASE("vertices are far from the faces where they lie outside by more than t
     mesh.vertices.row(n + 1) = box.high + Point(0.9 * box.diagonal(), 0.0, 0.0);
     mesh.vertices.row(n + 2) = box.high + Point(1.1 * box.diagonal(), 0.0, 0.0);
     const std::vector<Index> unused{n, n + 1, n + 2};
-    CHECK(far_from_faces(mesh, unused) == std::vector<Index>{n + 2});
-    CHECK(far_from_faces(mesh, {}).empty());
+    CHECK(far_from_faces(box, mesh.vertices, unused) == std::vector<Index>{n + 2});
+    CHECK(far_from_faces(box, mesh.vertices, {}).empty());
 }

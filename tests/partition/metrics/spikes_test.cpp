@@ -6,7 +6,6 @@
 #include <doctest/doctest.h>
 
 #include "partition/metrics/edge_measures.h"
-#include "partition/metrics/spikes.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/meshes/meshes.h"
 #include "tests/support/relative.h"

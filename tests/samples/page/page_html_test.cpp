@@ -8,6 +8,7 @@
 #include "partition/errors.h"
 #include "samples/page/page_html.h"
 #include "samples/page/page_template.h"
+#include "samples/page/shown_steps.h"
 #include "samples/report/report_json.h"
 #include "tests/samples/page/inflated.h"
 #include "tests/support/relative.h"
