@@ -11,9 +11,26 @@
 #include "samples/programs.h"
 #include "samples/report/inspection_text.h"
 #include "samples/report/report_json.h"
+#include "samples/report/surface_roughness.h"
 #include "solvers/denoising/mesh_denoiser.h"
+#include "solvers/rounding/rounded_surface.h"
 
 namespace seamflow {
+
+namespace {
+
+/// What `smooth` finds on a surface without an amount: steps of its coordinates, or noise.
+SurfaceRoughness roughness_of(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
+{
+    Topology moving = topology;
+    free_junctions(mesh, moving, exec);
+    free_boundary(moving);
+    if (const auto rounded = smooth_rounded(mesh, moving, mesh.vertices, {}, exec))
+        return {.noise = {}, .steps = rounded->steps};
+    return {.noise = measure_noise(mesh, topology, exec), .steps = {}};
+}
+
+}  // namespace
 
 ExitStatus run_inspect_program(int argc, char** argv)
 {
@@ -38,21 +55,21 @@ ExitStatus run_inspect_program(int argc, char** argv)
     const PolygonMesh mesh = read_faulty_mesh(input, faults, exec).mesh;
     const Topology topology = make_topology(mesh, exec);
     const MeshInspection found = inspect(mesh, topology, exec);
-    std::optional<SurfaceNoise> noise;
+    SurfaceRoughness roughness;
     // Where cracks are open, the faces as they are say nothing of the noise.
     if (mesh.n_faces() > 0 && found.defects.vertices_not_finite.empty() && !found.cracks)
         workers.execute([&] {
             if (found.defects.duplicate_faces.empty()) {
-                noise = measure_noise(mesh, topology, exec);
+                roughness = roughness_of(mesh, topology, exec);
             } else {
                 const PolygonMesh single = with_single_faces(mesh, found);
-                noise = measure_noise(single, make_topology(single, exec), exec);
+                roughness = roughness_of(single, make_topology(single, exec), exec);
             }
         });
     if (as_json)
-        std::cout << inspection_json(input.string(), faults, found, noise);
+        std::cout << inspection_json(input.string(), faults, found, roughness);
     else
-        print_inspection(std::cout, input.string(), faults, found, most_listed, noise);
+        print_inspection(std::cout, input.string(), faults, found, most_listed, roughness);
     require_faces(input, mesh.n_faces(), faults);
     return faults.count == faults.n_harmless ? ExitStatus::Success : ExitStatus::UnusableInput;
 }

@@ -71,7 +71,14 @@ void require_valid(const SmoothingAmount& amount)
 
 /// Checks the numbers of a method.
 struct RequireValid {
-    void operator()(const RemoveNoise& method) const { require_within(row_of_angle, method.edge_angle); }
+    void operator()(const RemoveNoise& method) const
+    {
+        require_within(row_of_angle, method.edge_angle);
+        const Point& steps = method.rounding.steps;
+        if (method.rounding.kind == Rounding::Kind::Given &&
+            !(steps.allFinite() && steps.minCoeff() >= 0.0 && !steps.isZero(0.0)))
+            refuse("<rounded> are the steps of x, y and z: finite, at least 0, and not all 0");
+    }
     void operator()(const SmoothBetweenEdges& method) const
     {
         require_within(row_of_angle, method.edge_angle);

@@ -27,23 +27,6 @@ std::vector<Index> vertices_of(const std::vector<Edge>& edges)
     return vertices;
 }
 
-/// "1 in x, y and z" for equal steps; "0.5 in x, 0.5 in y, 2.5 in z".
-std::string in_words(const Point& steps)
-{
-    constexpr std::string_view names = "xyz";
-    std::string text;
-    std::vector<std::string> axes;
-    for (int axis = 0; axis < 3; ++axis)
-        if (steps[axis] > 0.0)
-            axes.push_back(fmt::format("{:.6g} in {}", steps[axis], names[static_cast<std::size_t>(axis)]));
-    const double largest = steps.maxCoeff();
-    if (axes.size() == 3 && largest - steps.minCoeff() < 1e-6 * largest)
-        return fmt::format("{:.6g} in x, y and z", largest);
-    for (const std::string& axis : axes)
-        text += (text.empty() ? "" : ", ") + axis;
-    return text;
-}
-
 }  // namespace
 
 std::unique_ptr<const DenoisingStepper::CutOpen> DenoisingStepper::cut_open(const PolygonMesh& mesh,
@@ -93,19 +76,23 @@ std::optional<SmoothedWithinSteps> DenoisingStepper::within_steps(const Points& 
     // Later steps begin with coordinates that are rounded no more.
     if (rounding_.kind == Rounding::Kind::Never || noise_ || mesh_->n_faces() == 0)
         return std::nullopt;
-    const double length = mean_edge_length(*mesh_, before, exec);
-    CoordinateBounds bounds = rounding_.kind == Rounding::Kind::Given
-                                  ? bounds_of(before, rounding_.steps)
-                                  : bounds_of(before, find_coordinate_steps(before, length, exec), length, exec);
-    if (bounds.kind == CoordinateBounds::Kind::None)
-        return std::nullopt;
-    for (const Index v : on_feature_edges_)
-        bounds.widths.row(v).setZero();
-    const Point steps = bounds.steps;
-    SmoothedWithinSteps smoothed = smooth_within(*mesh_, *topology_, before, std::move(bounds), strengths_, exec);
-    if (rounding_.kind == Rounding::Kind::Found && !smoothed.explains_roughness())
-        return std::nullopt;
-    rounded_ = {steps, smoothed.fairing.turns, smoothed.fairing.last_motion / steps.maxCoeff()};
+    std::vector<double> strengths;
+    // The copies of vertices on the other sides of feature edges come after the vertices.
+    if (!strengths_.empty())
+        strengths.assign(strengths_.begin(), strengths_.begin() + mesh_->n_vertices());
+    if (!on_feature_edges_.empty()) {
+        strengths.resize(usize(mesh_->n_vertices()), 1.0);
+        for (const Index v : on_feature_edges_)
+            strengths[v] = 0.0;
+    }
+    std::optional<SmoothedWithinSteps> smoothed =
+        rounding_.kind == Rounding::Kind::Found
+            ? smooth_rounded(*mesh_, *topology_, before, strengths, exec)
+            : smooth_within(*mesh_, *topology_, before, bounds_of(before, rounding_.steps), strengths, exec);
+    if (smoothed) {
+        const FairingReport& fairing = smoothed->fairing;
+        rounded_ = {smoothed->steps, fairing.turns, fairing.last_motion / smoothed->steps.maxCoeff()};
+    }
     return smoothed;
 }
 
@@ -193,7 +180,7 @@ void DenoisingStepper::report_to(DenoiseReport& report) const
             {"rounded coordinates",
              {{"x", steps.x()}, {"y", steps.y()}, {"z", steps.z()}},
              {fmt::format("coordinates are rounded to {}: the smoothest surface within half a step",
-                          in_words(steps))}});
+                          steps_in_words(steps))}});
         return;
     }
     const bool has_noise = noise_->part > 0.0;

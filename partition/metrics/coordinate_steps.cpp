@@ -12,8 +12,8 @@ namespace seamflow {
 namespace {
 
 /// In lengths of edges: values that differ by less are one value, and the smallest step that is looked for.
-constexpr double same_value = 1e-4;
-constexpr double least_step = 0.05;
+constexpr double same_value = 1e-5;
+constexpr double least_step = 0.005;
 /// In steps: a value so near to a plane lies on it.
 constexpr double near_plane = 0.02;
 /// The fraction of all values that lie on planes.

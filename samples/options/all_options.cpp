@@ -23,7 +23,7 @@ DenoiseOptions denoise_options_of(const AllOptions& options)
     if (options.smooth_rims)
         own.method = SmoothRims{amount};
     else if (options.denoise)
-        own.method = RemoveNoise{options.keep_edges.value_or(RemoveNoise::default_edge_angle)};
+        own.method = RemoveNoise{options.keep_edges.value_or(RemoveNoise::default_edge_angle), options.rounded};
     else
         own.method = SmoothBetweenEdges{options.keep_edges.value(), amount};
     return own;

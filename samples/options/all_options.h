@@ -26,6 +26,8 @@ struct AllOptions : FlowOptions {
     std::optional<double> keep_edges = {};
     /// Whether noise is removed, as much as there is.
     bool denoise = false;
+    /// Which coordinates are rounded, where noise is removed.
+    Rounding rounded = {};
     /// Whether the boundary alone moves.
     bool smooth_rims = false;
 
@@ -45,6 +47,13 @@ inline constexpr OptionTraits row_of_keep_edges{
     "mesh.",
     limits_of_edge_angle};
 
+inline constexpr OptionTraits row_of_rounded{
+    "rounded", "--rounded", option_group::kind, concern::motion | concern::whole_surface,
+    "coordinates are multiples of this length, as of voxels or whole heights: the smoothest surface "
+    "within half a step [found]\n"
+    "One length for x, y and z, or three; 0: not rounded. Steps are found where they explain what is rough, "
+    "unless it is never. Without an amount."};
+
 /// The table of all options (see option_table).
 template <class Options>
 auto all_option_table(Options& options)
@@ -52,7 +61,7 @@ auto all_option_table(Options& options)
     using OfFlow = std::conditional_t<std::is_const_v<Options>, const FlowOptions, FlowOptions>;
     return std::tuple_cat(option_table(static_cast<OfFlow&>(options)),
                           std::tuple{row(options.keep_edges, row_of_keep_edges), row(options.denoise, {"denoise"}),
-                                     row(options.smooth_rims, {"smooth_rims"})});
+                                     row(options.rounded, row_of_rounded), row(options.smooth_rims, {"smooth_rims"})});
 }
 
 /// The options of denoise().

@@ -2,6 +2,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -40,6 +42,22 @@ std::optional<double> unit_of(std::string_view suffix)
 [[noreturn]] void refuse_text(std::string_view text, std::string_view what)
 {
     throw OptionError(fmt::format("\"{}\" {}", text, what));
+}
+
+/// Reads "X,Y,Z"; nothing for another text.
+std::optional<Point> parse_three(std::string_view text, const Limits& limits)
+{
+    const std::size_t first = text.find(',');
+    const std::size_t second = first != std::string_view::npos ? text.find(',', first + 1) : first;
+    if (second == std::string_view::npos)
+        return std::nullopt;
+    try {
+        return Point(parse_real(text.substr(0, first), limits),
+                     parse_real(text.substr(first + 1, second - first - 1), limits),
+                     parse_real(text.substr(second + 1), limits));
+    } catch (const OptionError&) {
+        return std::nullopt;
+    }
 }
 
 }  // namespace
@@ -97,6 +115,23 @@ LengthOnMesh parse_length(std::string_view text)
     }
 }
 
+Rounding parse_rounding(std::string_view text)
+{
+    if (text == "never")
+        return {.kind = Rounding::Kind::Never};
+    constexpr Limits limits{0.0, std::numeric_limits<double>::max()};
+    std::optional<Point> steps = parse_three(text, limits);
+    if (text.find(',') == std::string_view::npos) {
+        try {
+            steps = Point::Constant(parse_real(text, limits));
+        } catch (const OptionError&) {
+        }
+    }
+    if (!steps || steps->isZero())
+        refuse_text(text, "is neither a step above 0, nor three like 0.5,0.5,3, nor never");
+    return {.kind = Rounding::Kind::Given, .steps = *steps};
+}
+
 MotionDirection parse_direction(std::string_view text)
 {
     if (text == "normal")
@@ -107,16 +142,9 @@ MotionDirection parse_direction(std::string_view text)
         direction.vector[static_cast<Eigen::Index>(axis)] = 1.0;
         return direction;
     }
-    const std::size_t first = text.find(',');
-    const std::size_t second = first != std::string_view::npos ? text.find(',', first + 1) : first;
-    try {
-        if (second != std::string_view::npos)
-            direction.vector = {parse_real(text.substr(0, first), {}),
-                                parse_real(text.substr(first + 1, second - first - 1), {}),
-                                parse_real(text.substr(second + 1), {})};
-        if (direction.vector.norm() > 0.0)
-            return direction;
-    } catch (const OptionError&) {
+    if (const std::optional<Point> vector = parse_three(text, {}); vector && vector->norm() > 0.0) {
+        direction.vector = *vector;
+        return direction;
     }
     refuse_text(text, "is neither x, y, z nor normal, nor a vector like 0,0.5,1");
 }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/denoise/denoise_options.h"
 #include "engine/options/motion_options.h"
 #include "engine/options/option_names.h"
 #include "engine/options/option_traits.h"
@@ -41,6 +42,9 @@ LengthOnMesh parse_length(std::string_view text);
 
 /// "x", "y", "z", "normal", or a vector: "0,0.5,1". @throws OptionError for anything else.
 MotionDirection parse_direction(std::string_view text);
+
+/// "never", one step for x, y and z, or one for each: "0.5,0.5,3". @throws OptionError for anything else.
+Rounding parse_rounding(std::string_view text);
 
 /// Words, and what each stands for.
 template <class Value>

@@ -115,6 +115,10 @@ constexpr RequestRule rules_of_whole_mesh[]{
          return asked.has("feature_edges") && (!c.options.takes_whole_mesh() || c.options.smooth_rims);
      },
      0, "<feature_edges> names edges to keep: give <preset cad>, or <keep_edges> with an angle, as well"},
+    {[](const SmoothRequest& c, const Asked& asked) { return asked.has("rounded") && !c.options.denoise; }, 0,
+     "<rounded> says within which bounds the smoothest surface is looked for, so that there is no other amount: leave "
+     "out "
+     "the amount, or <rounded>"},
     {[](const SmoothRequest& c, const Asked&) {
          return c.options.smooth_rims && (c.options.denoise || c.options.keep_edges);
      },

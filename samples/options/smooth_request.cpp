@@ -143,6 +143,7 @@ std::vector<RequestOption> request_options(SmoothRequest& request)
     // First, so that the others refine it.
     std::vector<RequestOption> list{option_of_paper(request), option_of_noise(request), option_of_preset(request)};
     const std::map<std::string_view, TextReader> readers = readers_of_fields(request);
+    list.push_back({row_of_rounded, "", reader_by(request.options.rounded, parse_rounding, "never|Q|X,Y,Z")});
     for_each_option(static_cast<FlowOptions&>(request.options), [&](const auto& row) {
         if (row.field == "feature_edges")
             list.push_back({row_of_keep_edges, "", reader_of(request.options.keep_edges, row_of_keep_edges.limits)});

@@ -13,6 +13,7 @@ SmoothReport report_of(DenoiseReport report, Index n_faces)
 {
     SmoothReport all;
     all.noise = report.noise;
+    all.rounding = report.rounding;
     all.time_step = report.time_step;
     all.resources.threads = report.threads;
     all.cut.labels.assign(n_faces, 0);

@@ -22,6 +22,7 @@ struct SmoothReport : FlowReport {
 
     /// See DenoiseReport.
     std::optional<NoiseReport> noise;
+    std::optional<RoundingReport> rounding;
 };
 
 SmoothReport report_of(DenoiseReport report, Index n_faces);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "samples/process/option_words.h"
+#include "solvers/rounding/rounded_surface.h"
 
 namespace seamflow {
 
@@ -88,8 +89,9 @@ class FindingsPrinter {
 };
 
 void print_sizes(std::ostream& out, const std::string& file, const MeshInspection& found,
-                 const std::optional<SurfaceNoise>& noise)
+                 const SurfaceRoughness& roughness)
 {
+    const std::optional<SurfaceNoise>& noise = roughness.noise;
     out << file << '\n'
         << "vertices   " << found.counts.vertices << '\n'
         << "edges      " << found.counts.edges << ", " << found.counts.boundary_edges
@@ -115,14 +117,17 @@ void print_sizes(std::ostream& out, const std::string& file, const MeshInspectio
                            noise->part < all_but_few ? ", none that can be told from the shape on the others" : "");
     else if (noise)
         out << "noise      none that can be told from the shape\n";
+    else if (roughness.steps)
+        out << "rounded    coordinates are multiples of " << steps_in_words(*roughness.steps)
+            << ", which makes the surface rough: smooth finds the smoothest one within half a step\n";
 }
 
 }  // namespace
 
 void print_inspection(std::ostream& out, const std::string& file, const FaultLog& faults, const MeshInspection& found,
-                      int most_listed, const std::optional<SurfaceNoise>& noise)
+                      int most_listed, const SurfaceRoughness& roughness)
 {
-    print_sizes(out, file, found, noise);
+    print_sizes(out, file, found, roughness);
     FindingsPrinter printer(out, most_listed);
     printer.print(faults);
     printer.print(found.defects.vertices_not_finite, "vertices with coordinates that are not finite numbers",

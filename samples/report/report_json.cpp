@@ -106,6 +106,12 @@ namespace {
 
 using Json = ReportJson;
 
+/// x, y and z.
+Json coordinates_json(const Point& coordinates)
+{
+    return {json_number(coordinates.x()), json_number(coordinates.y()), json_number(coordinates.z())};
+}
+
 /// One member of every sub-mesh.
 template <class Value>
 Json of_sub_meshes(const CutReport& cut, Value SubMeshReport::*member)
@@ -220,6 +226,11 @@ void add_flow(Json& json, const RunRecord& run, const AllOptions& options, const
     if (report.noise) {
         json["noise"] = json_number(report.noise->deviation);
         json["noisy_part"] = json_number(report.noise->part);
+    }
+    if (report.rounding) {
+        json["rounded"] = coordinates_json(report.rounding->steps);
+        json["fairing_turns"] = report.rounding->turns;
+        json["fairing_last_motion"] = json_number(report.rounding->last_motion);
     }
     if (motion.attachment > 0.0)
         json["attachment"] = json_number(motion.attachment);
@@ -337,7 +348,7 @@ std::string compare_report_json(const Comparison& comparison)
 }
 
 std::string inspection_json(const std::string& file, const FaultLog& faults, const MeshInspection& found,
-                            const std::optional<SurfaceNoise>& noise)
+                            const SurfaceRoughness& roughness)
 {
     const auto& sides = found.counts.faces_by_sides;
     const MeshDefects& defects = found.defects;
@@ -377,10 +388,12 @@ std::string inspection_json(const std::string& file, const FaultLog& faults, con
         {"weld_distance", found.cracks ? found.cracks->weld_distance : 0.0},
         {"self_intersections", defects.self_intersections},
     };
-    if (noise) {
+    if (const std::optional<SurfaceNoise>& noise = roughness.noise) {
         json["noise"] = json_number(noise->edge > 0.0 ? noise->deviation / noise->edge : 0.0);
         json["noisy_part"] = json_number(noise->part);
     }
+    if (roughness.steps)
+        json["rounded"] = coordinates_json(*roughness.steps);
     return text_of(json);
 }
 

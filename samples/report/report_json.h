@@ -15,7 +15,7 @@
 #include "samples/report/comparison.h"
 #include "samples/report/run_record.h"
 #include "samples/report/surface_change.h"
-#include "solvers/denoising/mesh_denoiser.h"
+#include "samples/report/surface_roughness.h"
 
 /// The reports of programs as JSON, and the parts that they share.
 namespace seamflow {
@@ -71,8 +71,8 @@ std::string smooth_failure_json(const RunRecord& run, const Failure& failure);
 std::string compare_report_json(const Comparison& comparison);
 
 /// All findings of `inspect`, as it prints them with --json.
-/// @param noise empty if it is not measured: then it has no keys.
+/// @param roughness without noise if it is not measured: then it has no keys.
 std::string inspection_json(const std::string& file, const FaultLog& faults, const MeshInspection& found,
-                            const std::optional<SurfaceNoise>& noise);
+                            const SurfaceRoughness& roughness);
 
 }  // namespace seamflow

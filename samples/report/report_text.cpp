@@ -195,7 +195,8 @@ void print_details(std::ostream& out, const RunRecord& run, const AllOptions& op
 {
     const FlowNames names = flow_names(options, report);
     out << "flow       "
-        << (report.noise         ? std::string("noise removed")
+        << (report.rounding      ? std::string("smoothest surface within half a step of rounding")
+            : report.noise       ? std::string("noise removed")
             : options.keep_edges ? fmt::format("edges sharper than {:g} degrees kept", *options.keep_edges)
                                  : std::string(names.laplacian));
     if (options.flow != FlowEquation::MeanCurvature)

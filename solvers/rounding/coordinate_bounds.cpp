@@ -12,8 +12,9 @@ namespace seamflow {
 
 namespace {
 
-/// In lengths of edges: smaller steps are not seen.
+/// In lengths of edges: smaller steps are not seen. Of heights they are, as terraces, where the ground is nearly level.
 constexpr double least_visible_step = 0.1;
+constexpr double least_visible_height = 0.01;
 /// The fraction of the vertices, of those on planes of all three coordinates, that lie in the middle of an edge of the
 /// lattice, for a surface of marching cubes.
 constexpr double most_in_middles = 0.95;
@@ -85,7 +86,7 @@ bounds_of_marching_cubes(const Points& points, const std::array<CoordinateSteps,
 }
 
 /// Whether nearly all vertices differ from all others in these two coordinates.
-bool have_own_places(const Points& points, Index first, Index second)
+bool have_own_places(const Points& points, unsigned first, unsigned second)
 {
     std::vector<std::pair<double, double>> places;
     places.reserve(static_cast<std::size_t>(points.rows()));
@@ -94,6 +95,25 @@ bool have_own_places(const Points& points, Index first, Index second)
     std::ranges::sort(places);
     const auto repeated = std::ranges::unique(places);
     return static_cast<double>(repeated.size()) <= (1.0 - most_with_own_place) * static_cast<double>(points.rows());
+}
+
+/// The coordinate that is a height over the other two, in which nearly all vertices have places of their own: heights
+/// on a grid, whether they are rounded or not, or rounded heights at any places; nothing for other surfaces.
+std::optional<unsigned> axis_of_heights(const Points& points, const std::array<CoordinateSteps, 3>& steps,
+                                        const Point& visible)
+{
+    std::optional<unsigned> found;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        const unsigned first = (axis + 1) % 3;
+        const unsigned second = (axis + 2) % 3;
+        const bool is_grid = steps[first].step > 0.0 && steps[second].step > 0.0;
+        if (!(is_grid || visible[axis] > 0.0) || !have_own_places(points, first, second))
+            continue;
+        if (is_grid)
+            return axis;
+        found = axis;
+    }
+    return found;
 }
 
 }  // namespace
@@ -106,25 +126,30 @@ bool has_equal_steps(const Point& steps)
 CoordinateBounds bounds_of(const Points& points, const std::array<CoordinateSteps, 3>& steps, double length,
                            const Executor& exec)
 {
-    Point visible = Point::Zero();
-    for (unsigned axis = 0; axis < 3; ++axis)
-        if (steps[axis].step >= least_visible_step * length)
-            visible[axis] = steps[axis].step;
-    if (visible.isZero())
+    const auto visible = [&](double least) {
+        Point found = Point::Zero();
+        for (unsigned axis = 0; axis < 3; ++axis)
+            if (steps[axis].step >= least * length)
+                found[axis] = steps[axis].step;
+        return found;
+    };
+    const Point of_heights = visible(least_visible_height);
+    if (of_heights.isZero())
         return {};
-    if (visible.minCoeff() > 0.0)
-        if (std::optional<CoordinateBounds> found = bounds_of_marching_cubes(points, steps, exec))
-            return std::move(*found);
-    for (Index axis = 0; axis < 3; ++axis) {
-        if (!have_own_places(points, (axis + 1) % 3, (axis + 2) % 3))
-            continue;
+    if (const std::optional<unsigned> axis = axis_of_heights(points, steps, of_heights)) {
         Point heights = Point::Zero();
-        heights[axis] = visible[axis];
+        heights[*axis] = of_heights[*axis];
         if (heights.isZero())
             return {};
         return {CoordinateBounds::Kind::Heights, heights, half_steps(points, heights)};
     }
-    return bounds_of(points, visible);
+    const Point of_all = visible(least_visible_step);
+    if (of_all.isZero())
+        return {};
+    if (of_all.minCoeff() > 0.0)
+        if (std::optional<CoordinateBounds> found = bounds_of_marching_cubes(points, steps, exec))
+            return std::move(*found);
+    return bounds_of(points, of_all);
 }
 
 CoordinateBounds bounds_of(const Points& points, const Point& steps)

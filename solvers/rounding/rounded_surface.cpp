@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <string_view>
+#include <utility>
 
+#include <fmt/format.h>
+
+#include "partition/metrics/vertex_distance.h"
 #include "partition/vector_area.h"
 #include "solvers/denoising/face_averages.h"
 #include "solvers/denoising/vertex_averages.h"
+#include "solvers/rounding/kept_volumes.h"
 
 namespace seamflow {
 
@@ -43,6 +48,7 @@ class NormalsInBoxes {
         , boxes_(boxes)
         , exec_(exec)
         , averages_(mesh, topology, exec)
+        , volumes_(mesh, topology, boxes.middles, exec)
     {
     }
 
@@ -76,6 +82,7 @@ class NormalsInBoxes {
             normals_.swap(means_);
         }
         fit(positions);
+        volumes_.restore(boxes_, positions, exec_);
     }
 
     /// Moves each vertex, again and again, by the mean of n ⟨n, c - x⟩ over its faces with averaged normals n and
@@ -110,6 +117,7 @@ class NormalsInBoxes {
     const Boxes& boxes_;
     const Executor& exec_;
     FaceAverages averages_;
+    KeptVolumes volumes_;
     /// #F: the averaged normals, and memory for averages.
     FaceVectors normals_;
     FaceVectors means_;
@@ -175,7 +183,7 @@ SmoothedWithinSteps smooth_within(const PolygonMesh& mesh, const Topology& topol
         bounds.widths.row(v) *= topology.moves(v) ? strength : 0.0;
     });
     const Boxes boxes{positions, bounds.widths};
-    SmoothedWithinSteps result{.positions = positions};
+    SmoothedWithinSteps result{.positions = positions, .steps = bounds.steps};
     if (begins_with_fairing(bounds))
         result.fairing = fair_in_boxes(VertexAverages(mesh, topology, exec).neighbours(), boxes,
                                        {most_turns, last_motion * bounds.steps.maxCoeff()}, result.positions, exec);
@@ -191,6 +199,35 @@ SmoothedWithinSteps smooth_within(const PolygonMesh& mesh, const Topology& topol
     result.bending = before > 0.0 ? bending / before : 1.0;
     result.at_bounds = fraction_at_bounds(boxes, bounds.steps, result.positions, exec);
     return result;
+}
+
+std::optional<SmoothedWithinSteps> smooth_rounded(const PolygonMesh& mesh, const Topology& topology,
+                                                  const Points& positions, const std::vector<double>& strengths,
+                                                  const Executor& exec)
+{
+    const double length = mean_edge_length(mesh, positions, exec);
+    CoordinateBounds bounds = bounds_of(positions, find_coordinate_steps(positions, length, exec), length, exec);
+    if (bounds.kind == CoordinateBounds::Kind::None)
+        return std::nullopt;
+    SmoothedWithinSteps smoothed = smooth_within(mesh, topology, positions, std::move(bounds), strengths, exec);
+    if (!smoothed.explains_roughness())
+        return std::nullopt;
+    return smoothed;
+}
+
+std::string steps_in_words(const Point& steps)
+{
+    // Steps that are found differ by rounding.
+    constexpr double equal = 1e-6;
+    if (steps.maxCoeff() - steps.minCoeff() <= equal * steps.maxCoeff())
+        return fmt::format("{:.6g} in x, y and z", steps.maxCoeff());
+    constexpr std::string_view axes = "xyz";
+    std::string text;
+    for (int axis = 0; axis < 3; ++axis)
+        if (steps[axis] > 0.0)
+            text += fmt::format("{}{:.6g} in {}", text.empty() ? "" : ", ", steps[axis],
+                                axes[static_cast<std::size_t>(axis)]);
+    return text;
 }
 
 }  // namespace seamflow

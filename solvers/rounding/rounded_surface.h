@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
@@ -20,6 +22,8 @@ double total_bending(const PolygonMesh& mesh, const Topology& topology, const Po
 struct SmoothedWithinSteps {
     /// #V by 3.
     Points positions;
+    /// The steps of x, y and z, in units of length; 0: not rounded.
+    Point steps = Point::Zero();
     /// The total bending as a fraction of that before.
     double bending = 1.0;
     /// The fraction of the vertices, of those with bounds, that are as far from where they were as the bounds allow.
@@ -42,5 +46,15 @@ struct SmoothedWithinSteps {
 SmoothedWithinSteps smooth_within(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                                   CoordinateBounds bounds, const std::vector<double>& strengths,
                                   const Executor& exec = run_serially);
+
+/// Finds the steps of the coordinates, and the smooth surface within half a step.
+/// @param mesh, topology, positions, strengths as for smooth_within.
+/// @returns nothing where coordinates have no steps, or where these do not explain the roughness.
+std::optional<SmoothedWithinSteps> smooth_rounded(const PolygonMesh& mesh, const Topology& topology,
+                                                  const Points& positions, const std::vector<double>& strengths,
+                                                  const Executor& exec = run_serially);
+
+/// "1 in x, y and z" if all steps are equal; otherwise "0.5 in x, 0.5 in y, 2.5 in z", without those that are 0.
+std::string steps_in_words(const Point& steps);
 
 }  // namespace seamflow

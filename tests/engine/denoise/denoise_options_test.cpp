@@ -78,6 +78,11 @@ TEST_CASE("each option of denoise is refused outside its limits, by its name")
         refusals.emplace_back("keep_edges is ", [=](O& o) { o.method = RemoveNoise{angle}; });
         refusals.emplace_back("keep_edges is ", between(angle, {.time_step = 1.0}));
     }
+    for (const Point& steps :
+         {Point(0.0, 0.0, 0.0), Point(1.0, -1.0, 1.0), Point(infinite, 1.0, 1.0), Point(1.0, not_a_number, 1.0)})
+        refusals.emplace_back("rounded are the steps", [=](O& o) {
+            o.method = RemoveNoise{.rounding = {Rounding::Kind::Given, steps}};
+        });
     for (const double time_step : {0.0, -1.0, infinite, not_a_number}) {
         refusals.emplace_back("time_step is ", between(30.0, {.time_step = time_step}));
         refusals.emplace_back("time_step is ", [=](O& o) { o.method = SmoothRims{{.time_step = time_step}}; });

@@ -1,0 +1,68 @@
+#include "solvers/rounding/kept_volumes.h"
+
+#include <algorithm>
+#include <span>
+
+#include "partition/metrics/volume.h"
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+KeptVolumes::KeptVolumes(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                         const Executor& exec)
+    : mesh_(mesh)
+    , topology_(topology)
+    , normals_(mesh, topology)
+    , components_(face_components(mesh, topology))
+    , kept_(usize(components_.count()), 0.0)
+    , component_of_(usize(mesh.n_vertices()), -1)
+{
+    for (Index c = 0; c < components_.count(); ++c) {
+        // Where sheets meet, or faces are oriented against each other, there is no inside.
+        const auto is_closed = [&](Index f) {
+            const std::span<const Index> twins =
+                std::span<const Index>(topology.twin).subspan(usize(mesh.face_offsets[f]), mesh.face(f).size());
+            return std::ranges::all_of(twins, [](Index twin) { return twin >= 0; });
+        };
+        if (topology.oriented && std::ranges::all_of(components_.nodes[c], is_closed))
+            kept_[c] = volume(c, positions, exec);
+    }
+    for_each(exec, mesh.n_vertices(), [&](Index v) {
+        const auto corners = topology.corners_at(v);
+        const auto component = [&](Index corner) { return components_.component_of[topology.face_of[corner]]; };
+        if (!corners.empty() &&
+            std::ranges::all_of(corners, [&](Index corner) { return component(corner) == component(corners.front()); }))
+            component_of_[v] = component(corners.front());
+    });
+}
+
+void KeptVolumes::restore(const Boxes& boxes, Points& positions, const Executor& exec) const
+{
+    // Per component: the length by which its vertices move along their normals: the missing volume by the area.
+    std::vector<double> lengths(kept_.size(), 0.0);
+    for (Index c = 0; c < components_.count(); ++c) {
+        if (kept_[c] == 0.0)
+            continue;
+        const std::span<const Index> faces = components_.nodes[c];
+        const double area = sum(exec, static_cast<Index>(faces.size()),
+                                [&](Index i) { return vector_area(mesh_.face(faces[i]), positions).norm(); });
+        if (area > 0.0)
+            lengths[c] = (kept_[c] - volume(c, positions, exec)) / area;
+    }
+    const Points before = positions;
+    for_each(exec, mesh_.n_vertices(), [&](Index v) {
+        const Index c = component_of_[v];
+        if (c >= 0 && lengths[c] != 0.0)
+            positions.row(v) = boxes.nearest(v, before.row(v) + lengths[c] * normals_(v, before));
+    });
+}
+
+double KeptVolumes::volume(Index component, const Points& positions, const Executor& exec) const
+{
+    const std::span<const Index> faces = components_.nodes[component];
+    const Point origin = positions.row(mesh_.face(faces.front()).front());
+    return sum(exec, static_cast<Index>(faces.size()),
+               [&](Index i) { return cone_volume(mesh_.face(faces[i]), positions, origin); });
+}
+
+}  // namespace seamflow

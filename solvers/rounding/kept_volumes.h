@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "partition/connected_components.h"
+#include "partition/metrics/vertex_normals.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+#include "solvers/rounding/bounded_fairing.h"
+
+namespace seamflow {
+
+/// Keeps the volumes that the components of a surface enclose: smoothing takes from what is outside and thin, while
+/// rounding takes as often as it adds.
+class KeptVolumes {
+  public:
+    /// @param mesh, topology with twins; both must outlive the object. @param positions #V by 3: those with the volumes
+    /// that are kept.
+    KeptVolumes(const PolygonMesh& mesh, const Topology& topology, const Points& positions, const Executor& exec);
+
+    /// Moves the vertices of each component along their normals, all by the same length, as far as their boxes allow,
+    /// so that the volume comes nearer to that which is kept. Components that enclose no volume stay.
+    void restore(const Boxes& boxes, Points& positions, const Executor& exec) const;
+
+  private:
+    [[nodiscard]] double volume(Index component, const Points& positions, const Executor& exec) const;
+
+    const PolygonMesh& mesh_;
+    const Topology& topology_;
+    VertexNormals normals_;
+    Components components_;
+    /// Per component: the volume that is kept; 0 for components that enclose none.
+    std::vector<double> kept_;
+    /// #V: the component of the faces of each vertex; -1 at vertices without faces, and where several components meet.
+    std::vector<Index> component_of_;
+};
+
+}  // namespace seamflow
