@@ -28,16 +28,63 @@ constexpr int averaging_rounds = 3;
 constexpr int fitting_rounds = 10;
 /// The surface that keeps edges is taken if its bending is below this fraction of that of the other one.
 constexpr double bends_less = 0.98;
-/// Rounding explains what is rough if at most this fraction of the bending is left, and at most this fraction of the
-/// vertices is at its bounds. Digitised balls, tori, tubes, boxes and terrains have .04 to .49 and .00 to .15; regular
-/// pyramids of blocks, studs and ribs .21 to .95 and .21 to .58.
-constexpr double most_bending = 0.6;
-constexpr double most_at_bounds = 0.175;
-/// A vertex is at a bound if it has moved by this fraction of its width.
-constexpr double at_bound = 0.98;
+/// When rounding explains what is rough: if the fraction of bending that is left and the fraction of vertices near
+/// their bounds, times a weight, add up to at most a limit.
+struct Evidence {
+    /// A vertex is near a bound if it has moved by this fraction of its width.
+    double near;
+    double weight;
+    double most;
+};
+
+/// In brackets the sums of digitised shapes (balls, tori, tubes, boxes, plates, egg crates, terrains), then those of
+/// shapes of blocks (pyramids of steps, studs, ribs, pockets, letters), which are to stay.
+Evidence evidence_for(CoordinateBounds::Kind kind)
+{
+    switch (kind) {
+    case CoordinateBounds::Kind::Heights:
+        // [.21 to .87; 1.08 to 3.0; stairs of equal treads, which a ramp becomes, too, .12 to .53]
+        return {.near = 0.9, .weight = 3.0, .most = 1.0};
+    case CoordinateBounds::Kind::MarchingCubes:
+        // [.18 to .66, two slices of plates and crates above; .67 to 1.4, stairs of one or two voxels .39 to .63]
+        return {.near = 0.98, .weight = 2.0, .most = 0.66};
+    default:
+        // [.14 to .465; .475 to 1.1]
+        return {.near = 0.98, .weight = 1.0, .most = 0.47};
+    }
+}
+
 /// A fairing ends when no coordinate moves by more than this many steps in a turn.
 constexpr double last_motion = 0.002;
 constexpr int most_turns = 400;
+
+/// The total bending of a surface: Σ l θ over its edges of two faces, with the length l and the angle θ between the
+/// normals of the faces. It is the same for a convex body and its rounded copies, however sharp its edges are, and
+/// grows with every wave: what stairs add to it disappears with them. Edges between vertices without bounds do not
+/// count.
+double total_bending(const PolygonMesh& mesh, const Topology& topology, const Points& widths, const Points& positions,
+                     const Executor& exec)
+{
+    const auto normal_of = [&](Index h) -> Point {
+        return vector_area(mesh.face(topology.face_of[usize(h)]), positions);
+    };
+    return sum(exec, mesh.n_corners(), [&](Index h) {
+        const Index twin = topology.twin[usize(h)];
+        if (twin < h)
+            return 0.0;
+        const Index v = mesh.face_vertices[usize(h)];
+        const Index w = mesh.face_vertices[usize(topology.next(mesh, h))];
+        if (widths.row(v).isZero(0.0) && widths.row(w).isZero(0.0))
+            return 0.0;
+        const Point normal = normal_of(h);
+        Point other = normal_of(twin);
+        // Half-edges in the same direction belong to faces with opposite orientations.
+        if (mesh.face_vertices[usize(twin)] == v)
+            other = -other;
+        const double sine = Eigen::RowVector3d(normal.cross(other)).norm();
+        return (positions.row(w) - positions.row(v)).norm() * std::atan2(sine, normal.dot(other));
+    });
+}
 
 /// Smooths the normals of a surface within bounds.
 class NormalsInBoxes {
@@ -56,19 +103,24 @@ class NormalsInBoxes {
     /// @returns the total bending of the result.
     double smooth(float sigma, Points& positions)
     {
-        double bending = total_bending(mesh_, topology_, positions, exec_);
+        double least = bending(positions);
         for (int group = 0; group < n_groups; ++group) {
             Points further = positions;
             for (int i = 0; i < group_of_fits; ++i)
                 smooth_once(sigma, further);
-            const double bending_further = total_bending(mesh_, topology_, further, exec_);
+            const double bending_further = bending(further);
             // The first group may bend a surface more that is to become one with edges.
-            if (group > 0 && !(bending_further < bending))
+            if (group > 0 && !(bending_further < least))
                 break;
-            bending = bending_further;
+            least = bending_further;
             positions = std::move(further);
         }
-        return bending;
+        return least;
+    }
+
+    [[nodiscard]] double bending(const Points& positions) const
+    {
+        return total_bending(mesh_, topology_, boxes_.widths, positions, exec_);
     }
 
   private:
@@ -123,8 +175,10 @@ class NormalsInBoxes {
     FaceVectors means_;
 };
 
-/// The fraction of the vertices with bounds that are at one, in a direction in which the bounds are widest, in steps.
-double fraction_at_bounds(const Boxes& boxes, const Point& steps, const Points& positions, const Executor& exec)
+/// The fraction of the vertices with bounds that have moved by at least the fraction `near` of their width, in a
+/// direction in which bounds are widest, in steps.
+double fraction_near_bounds(const Boxes& boxes, const Point& steps, double near, const Points& positions,
+                            const Executor& exec)
 {
     Eigen::Array2d counts = sum(
         exec, static_cast<Index>(positions.rows()),
@@ -133,10 +187,10 @@ double fraction_at_bounds(const Boxes& boxes, const Point& steps, const Points& 
             const Point width = boxes.widths.row(v);
             const Point in_steps = (steps.array() > 0.0).select(width.array() / steps.array(), 0.0);
             const bool has_bounds = in_steps.maxCoeff() > 0.0;
-            const bool is_at_bound = has_bounds && (in_steps.array() >= at_bound * in_steps.maxCoeff() &&
-                                                    motion.array() >= at_bound * width.array())
-                                                       .any();
-            return Eigen::Array2d(is_at_bound ? 1.0 : 0.0, has_bounds ? 1.0 : 0.0);
+            const bool is_near =
+                has_bounds &&
+                (in_steps.array() >= near * in_steps.maxCoeff() && motion.array() >= near * width.array()).any();
+            return Eigen::Array2d(is_near ? 1.0 : 0.0, has_bounds ? 1.0 : 0.0);
         },
         Eigen::Array2d(0.0, 0.0));
     return counts[1] > 0.0 ? counts[0] / counts[1] : 0.0;
@@ -149,30 +203,10 @@ bool begins_with_fairing(const CoordinateBounds& bounds)
 
 }  // namespace
 
-double total_bending(const PolygonMesh& mesh, const Topology& topology, const Points& positions, const Executor& exec)
-{
-    const auto normal_of = [&](Index h) -> Point {
-        return vector_area(mesh.face(topology.face_of[usize(h)]), positions);
-    };
-    return sum(exec, mesh.n_corners(), [&](Index h) {
-        const Index twin = topology.twin[usize(h)];
-        if (twin < h)
-            return 0.0;
-        const Index v = mesh.face_vertices[usize(h)];
-        const Index w = mesh.face_vertices[usize(topology.next(mesh, h))];
-        Point normal = normal_of(h);
-        Point other = normal_of(twin);
-        // Half-edges in the same direction belong to faces with opposite orientations.
-        if (mesh.face_vertices[usize(twin)] == v)
-            other = -other;
-        const double sine = Eigen::RowVector3d(normal.cross(other)).norm();
-        return (positions.row(w) - positions.row(v)).norm() * std::atan2(sine, normal.dot(other));
-    });
-}
-
 bool SmoothedWithinSteps::explains_roughness() const
 {
-    return bending <= most_bending && at_bounds <= most_at_bounds;
+    const Evidence evidence = evidence_for(kind);
+    return bending + evidence.weight * near_bounds <= evidence.most;
 }
 
 SmoothedWithinSteps smooth_within(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
@@ -183,7 +217,7 @@ SmoothedWithinSteps smooth_within(const PolygonMesh& mesh, const Topology& topol
         bounds.widths.row(v) *= topology.moves(v) ? strength : 0.0;
     });
     const Boxes boxes{positions, bounds.widths};
-    SmoothedWithinSteps result{.positions = positions, .steps = bounds.steps};
+    SmoothedWithinSteps result{.positions = positions, .kind = bounds.kind, .steps = bounds.steps};
     if (begins_with_fairing(bounds))
         result.fairing = fair_in_boxes(VertexAverages(mesh, topology, exec).neighbours(), boxes,
                                        {most_turns, last_motion * bounds.steps.maxCoeff()}, result.positions, exec);
@@ -195,9 +229,10 @@ SmoothedWithinSteps smooth_within(const PolygonMesh& mesh, const Topology& topol
         bending = bending_with_edges;
         result.positions = std::move(with_edges);
     }
-    const double before = total_bending(mesh, topology, positions, exec);
+    const double before = normals.bending(positions);
     result.bending = before > 0.0 ? bending / before : 1.0;
-    result.at_bounds = fraction_at_bounds(boxes, bounds.steps, result.positions, exec);
+    result.near_bounds =
+        fraction_near_bounds(boxes, bounds.steps, evidence_for(bounds.kind).near, result.positions, exec);
     return result;
 }
 

@@ -12,22 +12,18 @@
 
 namespace seamflow {
 
-/// The total bending of a surface: Σ l θ over its edges of two faces, with the length l and the angle θ between the
-/// normals of the faces. It is the same for a convex body and its rounded copies, however sharp its edges are, and
-/// grows with every wave: what stairs add to it disappears with them.
-double total_bending(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
-                     const Executor& exec = run_serially);
-
 /// A surface that is as smooth as rounded coordinates allow.
 struct SmoothedWithinSteps {
     /// #V by 3.
     Points positions;
+    CoordinateBounds::Kind kind = CoordinateBounds::Kind::None;
     /// The steps of x, y and z, in units of length; 0: not rounded.
     Point steps = Point::Zero();
-    /// The total bending as a fraction of that before.
+    /// The total bending, Σ l θ over edges of length l between faces at the angle θ, as a fraction of that before.
     double bending = 1.0;
-    /// The fraction of the vertices, of those with bounds, that are as far from where they were as the bounds allow.
-    double at_bounds = 0.0;
+    /// The fraction of the vertices, of those with bounds, that are nearly as far from where they were as the bounds
+    /// allow.
+    double near_bounds = 0.0;
     FairingReport fairing = {};
 
     /// Whether rounding explains the roughness of the surface: within half a step it is much smoother, and only few
