@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "engine/denoise.h"
+#include "engine/state/flow_state.h"
+#include "partition/errors.h"
+#include "tests/support/digitised.h"
+#include "tests/support/flows.h"
+
+using namespace seamflow;
+using test::ball;
+using test::same_bits;
+
+namespace {
+
+PolygonMesh voxels()
+{
+    return test::voxel_faces(ball(7.3), 20);
+}
+
+DenoiseOptions with_rounding(const Rounding& rounding)
+{
+    return {.method = RemoveNoise{.rounding = rounding}};
+}
+
+DenoiseReport denoised(PolygonMesh& mesh, const DenoiseOptions& options = {})
+{
+    return denoise(mesh, options);
+}
+
+bool names(const std::vector<Remark>& remarks, const std::string& kind)
+{
+    return std::ranges::any_of(remarks, [&](const Remark& remark) { return remark.kind == kind; });
+}
+
+double furthest(const PolygonMesh& mesh, const PolygonMesh& before)
+{
+    return (mesh.vertices - before.vertices).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+TEST_CASE("denoise finds rounded coordinates, and reports them in place of noise")
+{
+    PolygonMesh mesh = voxels();
+    const DenoiseReport report = denoised(mesh);
+    REQUIRE(report.rounding);
+    CHECK((report.rounding->steps - Point::Ones()).cwiseAbs().maxCoeff() < 1e-9);
+    CHECK(report.rounding->turns > 10);
+    CHECK(report.rounding->last_motion < 0.01);
+    REQUIRE(report.noise);
+    CHECK(report.noise->part == 0.0);
+    CHECK(names(report.choices, "rounded coordinates"));
+    CHECK_FALSE(names(report.remarks, "no noise"));
+    CHECK(furthest(mesh, voxels()) <= 0.5);
+}
+
+TEST_CASE("steps that are given are taken without a look, and never is never")
+{
+    // Heights that are all equal but for a step are not taken for rounded.
+    const auto plateau = [](double x, double) { return x < 10.0 ? 0.0 : 1.0; };
+    const PolygonMesh step = test::height_grid(21, plateau);
+    PolygonMesh mesh = step;
+    CHECK_FALSE(denoised(mesh).rounding);
+    CHECK(same_bits(mesh.vertices, step.vertices));
+    REQUIRE(denoised(mesh, with_rounding({Rounding::Kind::Given, Point(0.0, 0.0, 1.0)})).rounding);
+    CHECK(furthest(mesh, step) > 0.3);
+    CHECK(furthest(mesh, step) <= 0.5);
+    CHECK(mesh.vertices.leftCols<2>() == step.vertices.leftCols<2>());
+
+    PolygonMesh as_noise = voxels();
+    CHECK_FALSE(denoised(as_noise, with_rounding({.kind = Rounding::Kind::Never})).rounding);
+}
+
+TEST_CASE("rounded coordinates: vertices that are held stay, also those of feature edges and without faces")
+{
+    PolygonMesh mesh = voxels();
+    mesh.vertices.conservativeResize(mesh.n_vertices() + 1, 3);
+    mesh.vertices.row(mesh.n_vertices() - 1) = Point(0.25, 0.1, 0.7);
+    const PolygonMesh before = mesh;
+    DenoiseOptions options = with_rounding({Rounding::Kind::Given, Point::Ones()});
+    options.motion.fixed_vertices = {3, 4};
+    options.motion.feature_edges = {{mesh.face(20)[0], mesh.face(20)[1]}, {mesh.face(20)[1], mesh.face(20)[2]}};
+    REQUIRE(denoised(mesh, options).rounding);
+    for (const Index v :
+         {Index{3}, Index{4}, mesh.face(20)[0], mesh.face(20)[1], mesh.face(20)[2], mesh.n_vertices() - 1})
+        CHECK(same_bits(mesh.vertices.row(v), before.vertices.row(v)));
+    CHECK(furthest(mesh, before) > 0.3);
+}
+
+TEST_CASE("rounded coordinates: the same bits on any number of threads, after a resumption, and in later steps")
+{
+    DenoiseOptions options;
+    options.steps = 2;
+    PolygonMesh whole = voxels();
+    std::shared_ptr<const FlowState> after_first;
+    const DenoiseReport report = denoise(whole, options, [&](const StepResult& result) {
+        if (result.step == 1)
+            after_first = result.capture();
+    });
+    REQUIRE(report.rounding);
+    options.threads = 1;
+    PolygonMesh serial = voxels();
+    denoise(serial, options);
+    CHECK(same_bits(serial.vertices, whole.vertices));
+    PolygonMesh resumed = voxels();
+    const DenoiseReport again = denoise(resumed, options, {}, {.resume = after_first});
+    CHECK(same_bits(resumed.vertices, whole.vertices));
+    REQUIRE(again.rounding);
+    CHECK(again.rounding->steps == report.rounding->steps);
+    CHECK(again.rounding->turns == report.rounding->turns);
+    CHECK(again.choices == report.choices);
+
+    // A state belongs to the rounding with which it was made.
+    PolygonMesh other = voxels();
+    DenoiseOptions never = with_rounding({.kind = Rounding::Kind::Never});
+    never.steps = 2;
+    CHECK_THROWS_AS(denoise(other, never, {}, {.resume = after_first}), InputError);
+}

@@ -1,0 +1,221 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "engine/tasks/parallel_executor.h"
+#include "partition/metrics/volume.h"
+#include "partition/vector_area.h"
+#include "samples/meshes/random_numbers.h"
+#include "solvers/rounding/rounded_surface.h"
+#include "tests/support/digitised.h"
+#include "tests/support/test_meshes.h"
+
+using namespace seamflow;
+using test::ball;
+using test::crossed_edges;
+using test::height_grid;
+using test::Inside;
+using test::stepped_pyramid;
+using test::voxel_faces;
+
+namespace {
+
+Topology free_topology(const PolygonMesh& mesh)
+{
+    Topology topology = make_topology(mesh, run_in_parallel);
+    free_junctions(mesh, topology, run_in_parallel);
+    free_boundary(topology);
+    return topology;
+}
+
+std::optional<SmoothedWithinSteps> smoothed(const PolygonMesh& mesh, const std::vector<double>& strengths = {},
+                                            const Executor& exec = run_in_parallel)
+{
+    return smooth_rounded(mesh, free_topology(mesh), mesh.vertices, strengths, exec);
+}
+
+/// The mean angle between the faces and the sphere around the origin, in degrees.
+double angle_to_ball(const PolygonMesh& mesh, const Points& positions)
+{
+    double total = 0.0;
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        const Point normal = vector_area(mesh.face(f), positions).normalized();
+        Point middle = Point::Zero();
+        for (const Index v : mesh.face(f))
+            middle += positions.row(v);
+        total += std::acos(std::clamp(normal.dot(middle.normalized()), -1.0, 1.0));
+    }
+    return 180.0 / std::numbers::pi * total / mesh.n_faces();
+}
+
+double distance_to_ball(const Points& positions, double radius)
+{
+    return std::sqrt((positions.rowwise().norm().array() - radius).square().mean());
+}
+
+Inside box(const Point& half_lengths)
+{
+    return [=](const Point& point) { return (point.cwiseAbs().array() < half_lengths.array()).all(); };
+}
+
+double hill(double x, double y)
+{
+    return 6.0 * std::sin(x / 13.0) * std::cos(y / 17.0) + 3.0 * std::sin((x + 2.0 * y) / 23.0);
+}
+
+}  // namespace
+
+TEST_CASE("a ball of voxels becomes round, within half a voxel")
+{
+    constexpr double radius = 9.3;
+    struct Case {
+        const char* name;
+        PolygonMesh mesh;
+        Point spacing;
+        double angle;
+        double distance;
+    };
+    // The measured values are about four fifths of these.
+    for (const Case& one :
+         {Case{"faces", voxel_faces(ball(radius), 24), Point::Ones(), 1.4, 0.1},
+          Case{"marching cubes", crossed_edges(ball(radius), 24), Point::Ones(), 2.7, 0.08},
+          Case{"slices", crossed_edges(ball(radius), 40, Point(0.5, 0.5, 2.5)), Point(0.5, 0.5, 2.5), 5.0, 0.2}}) {
+        CAPTURE(std::string(one.name));
+        const auto result = smoothed(one.mesh);
+        REQUIRE(result);
+        CHECK((result->steps - one.spacing).cwiseAbs().maxCoeff() < 1e-9);
+        CHECK(
+            ((result->positions - one.mesh.vertices).cwiseAbs().array().rowwise() <= 0.5 * one.spacing.array() + 1e-12)
+                .all());
+        MESSAGE(one.name << ": " << angle_to_ball(one.mesh, result->positions) << " degrees, "
+                         << distance_to_ball(result->positions, radius));
+        CHECK(angle_to_ball(one.mesh, result->positions) < one.angle);
+        CHECK(distance_to_ball(result->positions, radius) < one.distance);
+        const double before = volume_of_cones(one.mesh, one.mesh.vertices, Point::Zero(), run_serially);
+        const double after = volume_of_cones(one.mesh, result->positions, Point::Zero(), run_serially);
+        CHECK(std::abs(after / before - 1.0) < 0.01);
+    }
+}
+
+TEST_CASE("whole heights become the ground, and x and y stay bit for bit")
+{
+    const PolygonMesh truth = height_grid(60, hill);
+    for (const double step : {1.0, 0.5, 0.05}) {
+        CAPTURE(step);
+        const PolygonMesh mesh = test::rounded(truth, Point(0.0, 0.0, step));
+        const auto result = smoothed(mesh);
+        REQUIRE(result);
+        CHECK(result->positions.leftCols<2>() == mesh.vertices.leftCols<2>());
+        CHECK((result->positions - mesh.vertices).cwiseAbs().maxCoeff() <= 0.5 * step + 1e-12);
+        const auto rms = [&](const Points& positions) {
+            return std::sqrt((positions.col(2) - truth.vertices.col(2)).squaredNorm() / mesh.n_vertices());
+        };
+        CHECK(rms(result->positions) < 0.45 * rms(mesh.vertices));
+    }
+}
+
+TEST_CASE("a box that is tilted against its voxels keeps its edges")
+{
+    // Turned by 31 degrees around z and 37 around x.
+    Eigen::Matrix3d turn;
+    turn = Eigen::AngleAxisd(0.64, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(0.54, Eigen::Vector3d::UnitZ());
+    const Inside tilted = [&](const Point& point) { return box(Point(11.0, 8.0, 9.0))(point * turn); };
+    const PolygonMesh mesh = voxel_faces(tilted, 36);
+    const auto result = smoothed(mesh);
+    REQUIRE(result);
+    double total = 0.0;
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        const Point normal = vector_area(mesh.face(f), result->positions).normalized() * turn;
+        total += std::acos(std::min(1.0, normal.cwiseAbs().maxCoeff()));
+    }
+    // Without edges that are kept they are 8 to 9 degrees off, and the faces of voxels 50.
+    CHECK(180.0 / std::numbers::pi * total / mesh.n_faces() < 5.0);
+}
+
+TEST_CASE("shapes of blocks, noise and exact surfaces are not taken for rounded")
+{
+    RandomNumbers random(3);
+    PolygonMesh noisy = height_grid(60, [&](double x, double y) { return hill(x, y) + 3.0 * random.symmetric(); });
+    const auto studs = [](double x, double y) {
+        return std::fmod(x, 9.0) < 3.0 && std::fmod(y, 9.0) < 3.0 ? 1.0 : 0.0;
+    };
+    const auto ribs = [](double x, double) { return std::fmod(x, 6.0) < 3.0 ? 1.0 : 0.0; };
+    const auto letters = [](double x, double y) {
+        return std::fmod(x, 30.0) < 4.0 || std::fmod(y, 45.0) < 4.0 ? 1.0 : 0.0;
+    };
+    const std::vector<std::pair<std::string, PolygonMesh>> meshes{
+        {"box", voxel_faces(box(Point(10.0, 7.0, 6.0)), 24)},
+        {"box, marching cubes", crossed_edges(box(Point(10.0, 7.0, 6.0)), 24)},
+        {"steps 1 by 1", voxel_faces(stepped_pyramid(1.0, 1.0), 26)},
+        {"steps 2 by 2", voxel_faces(stepped_pyramid(2.0, 2.0), 26)},
+        {"steps 3 by 2", voxel_faces(stepped_pyramid(3.0, 2.0), 26)},
+        {"steps 4 by 4", voxel_faces(stepped_pyramid(4.0, 4.0), 26)},
+        {"steps 3 by 3, marching cubes", crossed_edges(stepped_pyramid(3.0, 3.0), 26)},
+        {"studs", height_grid(63, studs)},
+        {"ribs", height_grid(60, ribs)},
+        {"letters", height_grid(90, letters)},
+        {"noise, rounded", test::rounded(noisy, Point(0.0, 0.0, 1.0))},
+        {"noise", noisy},
+        {"exact", height_grid(60, hill)},
+        {"torus", test::triangle_torus(30, 20)},
+    };
+    for (const auto& named : meshes) {
+        CAPTURE(named.first);
+        CHECK_FALSE(smoothed(named.second));
+    }
+}
+
+TEST_CASE("rounding is found alike in other units, at other places and with other axes")
+{
+    const PolygonMesh mesh = crossed_edges(ball(7.3), 18, Point(1.0, 1.0, 2.0));
+    const auto result = smoothed(mesh);
+    REQUIRE(result);
+    const double unit = 0.0254;
+    PolygonMesh other = mesh;
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        other.vertices.row(v) =
+            unit * Point(mesh.vertices(v, 2), mesh.vertices(v, 0), mesh.vertices(v, 1)) + Point(5.0, -3.0, 0.7);
+    const auto of_other = smoothed(other);
+    REQUIRE(of_other);
+    for (Index v = 0; v < mesh.n_vertices(); ++v) {
+        const Point back = (of_other->positions.row(v) - Point(5.0, -3.0, 0.7)) / unit;
+        CHECK((Point(back[1], back[2], back[0]) - result->positions.row(v)).norm() < 1e-3);
+    }
+}
+
+TEST_CASE("fixed vertices stay, and a strength scales the bounds")
+{
+    const PolygonMesh mesh = voxel_faces(ball(8.3), 22);
+    std::vector<double> strengths(usize(mesh.n_vertices()), 1.0);
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        strengths[v] = mesh.vertices(v, 0) < 0.0 ? 0.0 : mesh.vertices(v, 1) < 0.0 ? 0.5 : 1.0;
+    const auto result = smoothed(mesh, strengths);
+    REQUIRE(result);
+    for (Index v = 0; v < mesh.n_vertices(); ++v) {
+        const double motion = (result->positions.row(v) - mesh.vertices.row(v)).cwiseAbs().maxCoeff();
+        CHECK(motion <= 0.5 * strengths[v] + 1e-12);
+        if (strengths[v] == 0.0)
+            CHECK(result->positions.row(v) == mesh.vertices.row(v));
+    }
+}
+
+TEST_CASE("the smooth surface has the same bits however loops are run")
+{
+    const PolygonMesh mesh = voxel_faces(ball(8.3), 22);
+    const auto serial = smoothed(mesh, {}, run_serially);
+    const auto parallel = smoothed(mesh);
+    REQUIRE(serial);
+    REQUIRE(parallel);
+    CHECK(serial->positions == parallel->positions);
+}
+
+TEST_CASE("steps are named by their axes")
+{
+    CHECK(steps_in_words(Point(1.0, 1.0, 1.0)) == "1 in x, y and z");
+    CHECK(steps_in_words(Point(0.0, 0.0, 0.25)) == "0.25 in z");
+    CHECK(steps_in_words(Point(0.5, 0.5, 2.5)) == "0.5 in x, 0.5 in y, 2.5 in z");
+}
