@@ -86,7 +86,7 @@ Eigen::MatrixXd waves_on(const PolygonMesh& mesh)
 }
 
 /// Of each column, in units of its spread.
-double largest_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
+double largest_difference_of_columns(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
 {
     const Eigen::RowVectorXd spread = b.colwise().maxCoeff() - b.colwise().minCoeff();
     return ((a - b).cwiseAbs().array().rowwise() / spread.array()).maxCoeff();
@@ -122,7 +122,7 @@ TEST_CASE("fields diffuse as by a dense matrix of cotangents, however steps are 
                 expected = one_step(of, expected, options.time_step);
             Eigen::MatrixXd fields = before;
             const FieldReport report = diffuse(mesh, fields, options, {.weights = Weights::OfLaplacian});
-            CHECK(largest_difference(fields, expected) < 1e-8);
+            CHECK(largest_difference_of_columns(fields, expected) < 1e-8);
             CHECK(report.without_data == 0);
             const Eigen::RowVectorXd kept = of.mass.transpose() * before;
             CHECK(((of.mass.transpose() * fields - kept).array() / kept.array()).abs().maxCoeff() < 1e-8);
@@ -146,14 +146,14 @@ TEST_CASE("columns of fields do not depend on each other, on threads, or on thei
     CHECK(doubled == 1024.0 * all);
     Eigen::MatrixXd third = before.col(3);
     diffuse(mesh, third, options);
-    CHECK(largest_difference(third, all.col(3)) < 1e-9);
+    CHECK(largest_difference_of_columns(third, all.col(3)) < 1e-9);
     PolygonMesh tiny = mesh;
     tiny.vertices *= 0x1p-40;
     options.time_step *= 0x1p-80;
     for (const double unit : {0x1p1000, 0x1p-900}) {
         Eigen::MatrixXd scaled = unit * before.col(0);
         diffuse(tiny, scaled, options);
-        CHECK(largest_difference((1.0 / unit) * scaled, all.col(0)) < 1e-9);
+        CHECK(largest_difference_of_columns((1.0 / unit) * scaled, all.col(0)) < 1e-9);
     }
     // The spread of these is no number.
     Eigen::MatrixXd largest = (1.7e308 / before.col(0).cwiseAbs().maxCoeff()) * before.col(0);
@@ -188,7 +188,7 @@ TEST_CASE("constant fields stay, bit for bit, and so do held vertices and a fixe
         Eigen::MatrixXd expected = before;
         for (int step = 0; step < 2; ++step)
             expected = one_step(of, expected, options.time_step);
-        CHECK(largest_difference(fields.rightCols(3), expected.rightCols(3)) < 1e-7);
+        CHECK(largest_difference_of_columns(fields.rightCols(3), expected.rightCols(3)) < 1e-7);
     }
 }
 
@@ -230,7 +230,7 @@ TEST_CASE("vertices without data take no part, and stay without, or get the harm
         if (!std::isnan(before(v, 0)))
             CHECK(std::abs(fields(v, 0) - expected(v, 0)) < 1e-8);
     }
-    CHECK(largest_difference(fields.middleCols(1, 3), whole.middleCols(1, 3)) < 1e-8);
+    CHECK(largest_difference_of_columns(fields.middleCols(1, 3), whole.middleCols(1, 3)) < 1e-8);
 
     Eigen::MatrixXd filled = before;
     const FieldReport of_filling = diffuse(mesh, filled, options, {.fill = true, .weights = Weights::OfLaplacian});
@@ -317,7 +317,7 @@ TEST_CASE("faces without area take no part")
     mesh.add_face(std::array{Index{0}, n, Index{1}});
     Eigen::MatrixXd with = waves_on(mesh);
     diffuse(mesh, with, options);
-    CHECK(largest_difference(with.topRows(n), without) < 1e-9);
+    CHECK(largest_difference_of_columns(with.topRows(n), without) < 1e-9);
 }
 
 TEST_CASE("what is said of fields on sheets that meet, on a fixed boundary and along seams does not speak of motion")
@@ -543,7 +543,7 @@ TEST_CASE("vertices along seams get one value")
     diffuse(whole, of_whole, options);
     Eigen::MatrixXd apart = fields;
     diffuse(mesh, fields, options);
-    CHECK(largest_difference(fields.topRows(whole.n_vertices()), of_whole) < 1e-9);
+    CHECK(largest_difference_of_columns(fields.topRows(whole.n_vertices()), of_whole) < 1e-9);
     // Where they differ, their mean counts.
     const Index copy = whole.n_vertices();
     const Index of_copy = originals[copy];

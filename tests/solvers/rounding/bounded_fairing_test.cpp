@@ -81,13 +81,14 @@ TEST_CASE("a fairing ends when motions are small, and says so")
     FairingReport cut_off;
     const Points roughly = problem.faired({20000, 1e-2}, loose);
     const Points exactly = problem.faired({20000, 1e-12}, tight);
-    problem.faired({7, 1e-12}, cut_off);
+    const Points unfinished = problem.faired({7, 1e-12}, cut_off);
     CHECK(loose.last_motion <= 1e-2);
     CHECK(tight.last_motion <= 1e-12);
     CHECK(loose.turns < tight.turns);
     CHECK(tight.turns < 20000);
     CHECK((roughly - exactly).cwiseAbs().maxCoeff() < 0.1);
     CHECK(cut_off.turns == 7);
+    CHECK((unfinished - exactly).cwiseAbs().maxCoeff() > 1e-6);
     CHECK(cut_off.last_motion > 1e-12);
 }
 
