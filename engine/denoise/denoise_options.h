@@ -11,7 +11,8 @@ namespace seamflow {
 /// noise: each coordinate lies within half a step of the true one.
 struct Rounding {
     enum class Kind {
-        /// Steps are found, and count where they explain what is rough.
+        /// Steps are found, and count on components whose roughness they explain. Not if vertices move along normals
+        /// or oblique lines.
         Found,
         /// Steps are known: `steps`.
         Given,

@@ -24,10 +24,27 @@ bool is(const DenoiseOptions& options)
     return std::holds_alternative<Method>(options.method);
 }
 
+/// Whether steps of rounding are given.
+bool has_steps(const DenoiseOptions& options)
+{
+    const auto* const method = std::get_if<RemoveNoise>(&options.method);
+    return method != nullptr && method->rounding.kind == Rounding::Kind::Given;
+}
+
+/// Whether vertices move along lines that are not parallel to an axis.
+bool is_oblique(const MotionDirection& direction)
+{
+    return direction.kind == MotionDirection::Kind::Normal ||
+           (direction.kind == MotionDirection::Kind::Vector && (direction.vector.array() != 0.0).count() > 1);
+}
+
 /// The rules on options that a method excludes.
 constexpr OptionRule<DenoiseOptions> of_methods[]{
     {[](const DenoiseOptions& o, const Asked& asked) { return is<SmoothRims>(o) && asked.has("feature_edges"); }, 0,
      "<feature_edges> names edges to keep, but the boundary alone moves: leave them out"},
+    {[](const DenoiseOptions& o, const Asked&) { return has_steps(o) && is_oblique(o.motion.direction); }, 0,
+     "<rounded> bounds x, y and z one by one, which vertices that move along <direction> cannot keep: give an axis, or "
+     "leave one of them out"},
     {[](const DenoiseOptions&, const Asked& asked) {
          return asked.has("attachment") || asked.has("attachment_radius") || asked.has("attachment_weights");
      },

@@ -27,6 +27,17 @@ std::vector<Index> vertices_of(const std::vector<Edge>& edges)
     return vertices;
 }
 
+/// The rounding that is looked for: none if vertices move along lines that are no axes, on which bounds of coordinates
+/// could not hold.
+Rounding rounding_for(const RemoveNoise& method, const MotionDirection& direction)
+{
+    const bool has_axis =
+        direction.kind == MotionDirection::Kind::Vector && (direction.vector.array() != 0.0).count() == 1;
+    if (direction.kind == MotionDirection::Kind::Any || has_axis)
+        return method.rounding;
+    return {.kind = Rounding::Kind::Never};
+}
+
 }  // namespace
 
 std::unique_ptr<const DenoisingStepper::CutOpen> DenoisingStepper::cut_open(const PolygonMesh& mesh,
@@ -54,7 +65,8 @@ DenoisingStepper::DenoisingStepper(const PolygonMesh& mesh, const Topology& topo
                                    const RemoveNoise& method, Progress& progress)
     : mesh_(&mesh)
     , topology_(&topology)
-    , rounding_(method.rounding)
+    , rounding_(rounding_for(method, motion.direction))
+    , direction_(motion.direction)
     , on_feature_edges_(vertices_of(motion.feature_edges))
     , open_(cut_open(mesh, topology, motion.feature_edges, progress.exec()))
     , strengths_(motion.strength)
@@ -73,7 +85,6 @@ DenoisingStepper::DenoisingStepper(const PolygonMesh& mesh, const Topology& topo
 
 std::optional<SmoothedWithinSteps> DenoisingStepper::within_steps(const Points& before, const Executor& exec)
 {
-    // Later steps begin with coordinates that are rounded no more.
     if (rounding_.kind == Rounding::Kind::Never || noise_ || mesh_->n_faces() == 0)
         return std::nullopt;
     std::vector<double> strengths;
@@ -85,14 +96,23 @@ std::optional<SmoothedWithinSteps> DenoisingStepper::within_steps(const Points& 
         for (const Index v : on_feature_edges_)
             strengths[v] = 0.0;
     }
+    const bool is_given = rounding_.kind == Rounding::Kind::Given;
+    CoordinateBounds bounds = is_given ? bounds_of(*mesh_, *topology_, before, rounding_.steps, exec)
+                                       : find_bounds(*mesh_, *topology_, before, exec);
+    // Vertices that move along one axis keep their other coordinates.
+    if (direction_.kind == MotionDirection::Kind::Vector)
+        for (int axis = 0; axis < 3; ++axis)
+            if (direction_.vector[axis] == 0.0)
+                bounds.widths.col(axis).setZero();
+    if (bounds.kind == CoordinateBounds::Kind::None || bounds.widths.isZero(0.0))
+        return std::nullopt;
     std::optional<SmoothedWithinSteps> smoothed =
-        rounding_.kind == Rounding::Kind::Found
-            ? smooth_rounded(*mesh_, *topology_, before, strengths, exec)
-            : smooth_within(*mesh_, *topology_, before, bounds_of(before, rounding_.steps), strengths, exec);
-    if (smoothed) {
-        const FairingReport& fairing = smoothed->fairing;
-        rounded_ = {smoothed->steps, fairing.turns, fairing.last_motion / smoothed->steps.maxCoeff()};
-    }
+        smooth_within(*mesh_, *topology_, before, std::move(bounds), strengths, exec);
+    if (!is_given && !smoothed->explains_roughness)
+        return std::nullopt;
+    if (!is_given)
+        smoothed->positions = std::move(smoothed->where_explained);
+    rounded_ = {smoothed->steps, smoothed->fairing.turns, smoothed->fairing.last_motion};
     return smoothed;
 }
 
@@ -100,7 +120,10 @@ void DenoisingStepper::step(const Points& before)
 {
     assert(&before != &positions_);
     const Executor exec = loops_.begin();
-    if (std::optional<SmoothedWithinSteps> smoothed = within_steps(before, exec)) {
+    if (rounded_) {
+        // After the first step there is nothing left to smooth within the bounds.
+        positions_ = before;
+    } else if (std::optional<SmoothedWithinSteps> smoothed = within_steps(before, exec)) {
         positions_ = std::move(smoothed->positions);
         noise_.emplace();
     } else if (open_) {

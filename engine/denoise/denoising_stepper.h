@@ -50,6 +50,7 @@ class DenoisingStepper final : public WholeMeshStepper {
     const PolygonMesh* mesh_;
     const Topology* topology_;
     Rounding rounding_;
+    MotionDirection direction_;
     /// Ascending.
     std::vector<Index> on_feature_edges_;
     /// The mesh on which noise is removed; null without feature edges: then it is mesh_.

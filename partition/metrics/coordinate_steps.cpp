@@ -16,6 +16,8 @@ constexpr double same_value = 1e-5;
 constexpr double least_step = 0.005;
 /// In steps: a value so near to a plane lies on it.
 constexpr double near_plane = 0.02;
+/// In steps: so near are the values that lie on planes but for the rounding of a file.
+constexpr double on_plane = 0.002;
 /// The fraction of all values that lie on planes.
 constexpr double most_values = 0.8;
 /// Of two steps, the larger counts if it has this fraction of the values of the other.
@@ -67,6 +69,36 @@ std::vector<double> common_gaps(const std::vector<SharedValue>& values, double s
     return candidates;
 }
 
+/// Fits values at numbered planes by a line.
+class LineFit {
+  public:
+    void add(double plane, double value, double weight)
+    {
+        n_ += weight;
+        k_ += weight * plane;
+        x_ += weight * value;
+        kk_ += weight * plane * plane;
+        kx_ += weight * plane * value;
+    }
+
+    /// The planes; none if all values are at one. @param base the place of values of 0.
+    [[nodiscard]] CoordinateSteps line(double base) const
+    {
+        const double spread = n_ * kk_ - k_ * k_;
+        if (!(spread > 0.0))
+            return {};
+        const double step = (n_ * kx_ - k_ * x_) / spread;
+        return {step, base + (x_ - step * k_) / n_};
+    }
+
+  private:
+    double n_ = 0.0;
+    double k_ = 0.0;
+    double x_ = 0.0;
+    double kk_ = 0.0;
+    double kx_ = 0.0;
+};
+
 /// The planes through most values whose step is about this one: the numbers of planes are counted from gap to gap, so
 /// that a small error of the step does not add up, then line and values are fitted to each other.
 CoordinateSteps fitted(const std::vector<SharedValue>& values, double step)
@@ -78,12 +110,8 @@ CoordinateSteps fitted(const std::vector<SharedValue>& values, double step)
         ++first;
     if (first + 1 == values.size())
         return {};
-    double n = 0.0;
-    double sum_k = 0.0;
-    double sum_x = 0.0;
-    double sum_kk = 0.0;
-    double sum_kx = 0.0;
     const double base = values[first].value;
+    LineFit rough;
     double k = 0.0;
     double last = base;
     for (std::size_t i = first; i < values.size(); ++i) {
@@ -92,18 +120,17 @@ CoordinateSteps fitted(const std::vector<SharedValue>& values, double step)
             continue;
         k += std::round(planes);
         last = values[i].value;
-        const double x = last - base;
-        n += 1.0;
-        sum_k += k;
-        sum_x += x;
-        sum_kk += k * k;
-        sum_kx += k * x;
+        rough.add(k, last - base, values[i].count);
     }
-    const double spread = n * sum_kk - sum_k * sum_k;
-    if (!(spread > 0.0))
-        return {};
-    const double slope = (n * sum_kx - sum_k * sum_x) / spread;
-    return {slope, base + (sum_x - slope * sum_k) / n};
+    // A few stray values are near planes by chance.
+    const CoordinateSteps steps = rough.line(base);
+    if (!(steps.step > 0.0))
+        return steps;
+    LineFit fine;
+    for (const SharedValue& one : values)
+        if (std::abs((one.value - steps.origin) / steps.step - steps.plane_of(one.value)) <= on_plane)
+            fine.add(steps.plane_of(one.value), one.value - steps.origin, one.count);
+    return fine.line(steps.origin);
 }
 
 CoordinateSteps steps_of(std::vector<double> values, double length)

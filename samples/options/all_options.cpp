@@ -11,6 +11,18 @@ std::string_view whole_mesh(const AllOptions& options)
     return options.keep_edges ? "<keep_edges>" : options.smooth_rims ? "<boundary smooth>" : "<denoise>";
 }
 
+/// Edges that are to stay whatever they are may be those of steps, unless these are named.
+RemoveNoise remove_noise(const AllOptions& options)
+{
+    RemoveNoise method{.rounding = options.rounded};
+    if (options.keep_edges) {
+        method.edge_angle = *options.keep_edges;
+        if (method.rounding.kind == Rounding::Kind::Found)
+            method.rounding.kind = Rounding::Kind::Never;
+    }
+    return method;
+}
+
 }  // namespace
 
 DenoiseOptions denoise_options_of(const AllOptions& options)
@@ -23,7 +35,7 @@ DenoiseOptions denoise_options_of(const AllOptions& options)
     if (options.smooth_rims)
         own.method = SmoothRims{amount};
     else if (options.denoise)
-        own.method = RemoveNoise{options.keep_edges.value_or(RemoveNoise::default_edge_angle), options.rounded};
+        own.method = remove_noise(options);
     else
         own.method = SmoothBetweenEdges{options.keep_edges.value(), amount};
     return own;

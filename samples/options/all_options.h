@@ -49,10 +49,10 @@ inline constexpr OptionTraits row_of_keep_edges{
 
 inline constexpr OptionTraits row_of_rounded{
     "rounded", "--rounded", option_group::kind, concern::motion | concern::whole_surface,
-    "coordinates are multiples of this length, as of voxels or whole heights: the smoothest surface "
+    "coordinates lie in steps of this length, as of voxels or whole heights: the smoothest surface "
     "within half a step [found]\n"
     "One length for x, y and z, or three; 0: not rounded. Steps are found where they explain what is rough, "
-    "unless it is never. Without an amount."};
+    "unless it is never, or --keep-edges is given. Without an amount."};
 
 /// The table of all options (see option_table).
 template <class Options>

@@ -127,7 +127,7 @@ Rounding parse_rounding(std::string_view text)
         } catch (const OptionError&) {
         }
     }
-    if (!steps || steps->isZero())
+    if (!steps || steps->isZero(0.0))
         refuse_text(text, "is neither a step above 0, nor three like 0.5,0.5,3, nor never");
     return {.kind = Rounding::Kind::Given, .steps = *steps};
 }

@@ -116,9 +116,8 @@ constexpr RequestRule rules_of_whole_mesh[]{
      },
      0, "<feature_edges> names edges to keep: give <preset cad>, or <keep_edges> with an angle, as well"},
     {[](const SmoothRequest& c, const Asked& asked) { return asked.has("rounded") && !c.options.denoise; }, 0,
-     "<rounded> says within which bounds the smoothest surface is looked for, so that there is no other amount: leave "
-     "out "
-     "the amount, or <rounded>"},
+     "<rounded> bounds the smoothest surface, which is looked for without an amount, sub-meshes or an equation: leave "
+     "out <rounded>, or the options that choose these"},
     {[](const SmoothRequest& c, const Asked&) {
          return c.options.smooth_rims && (c.options.denoise || c.options.keep_edges);
      },

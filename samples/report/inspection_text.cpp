@@ -118,7 +118,7 @@ void print_sizes(std::ostream& out, const std::string& file, const MeshInspectio
     else if (noise)
         out << "noise      none that can be told from the shape\n";
     else if (roughness.steps)
-        out << "rounded    coordinates are multiples of " << steps_in_words(*roughness.steps)
+        out << "rounded    coordinates lie in steps of " << steps_in_words(*roughness.steps)
             << ", which makes the surface rough: smooth finds the smoothest one within half a step\n";
 }
 

@@ -17,7 +17,8 @@ struct Boxes {
     {
         const Point middle = middles.row(v);
         const Point width = widths.row(v);
-        return position.cwiseMax(middle - width).cwiseMin(middle + width);
+        const Point clamped = position.cwiseMax(middle - width).cwiseMin(middle + width);
+        return (width.array() > 0.0).select(clamped, middle);
     }
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -27,6 +28,11 @@ constexpr double across_edge = 0.35;
 constexpr double across_edge_of_slices = 0.2;
 /// The fraction of the vertices with places of their own in the plane of two coordinates, for heights over this plane.
 constexpr double most_with_own_place = 0.99;
+/// Heights have at least this many planes with at least this fraction of the vertices.
+constexpr std::ptrdiff_t least_planes = 4;
+constexpr double part_of_plane = 0.005;
+/// Steps that are given and found are the same if they differ by at most this fraction.
+constexpr double same_step = 0.01;
 
 /// The bounds of half a step around each vertex.
 Points half_steps(const Points& points, const Point& steps)
@@ -97,34 +103,68 @@ bool have_own_places(const Points& points, unsigned first, unsigned second)
     return static_cast<double>(repeated.size()) <= (1.0 - most_with_own_place) * static_cast<double>(points.rows());
 }
 
+/// The number of planes of a coordinate between its smallest and largest value.
+double count_planes(const Points& points, const CoordinateSteps& steps, unsigned axis)
+{
+    return 1.0 + (points.col(axis).maxCoeff() - points.col(axis).minCoeff()) / steps.step;
+}
+
 /// The coordinate that is a height over the other two, in which nearly all vertices have places of their own: heights
 /// on a grid, whether they are rounded or not, or rounded heights at any places; nothing for other surfaces.
 std::optional<unsigned> axis_of_heights(const Points& points, const std::array<CoordinateSteps, 3>& steps,
                                         const Point& visible)
 {
     std::optional<unsigned> found;
+    // Of several, such as on a steep slope, where height and one coordinate make a place, too, that above the grid
+    // which the vertices fill best.
+    double fullest = 0.0;
     for (unsigned axis = 0; axis < 3; ++axis) {
         const unsigned first = (axis + 1) % 3;
         const unsigned second = (axis + 2) % 3;
         const bool is_grid = steps[first].step > 0.0 && steps[second].step > 0.0;
         if (!(is_grid || visible[axis] > 0.0) || !have_own_places(points, first, second))
             continue;
-        if (is_grid)
-            return axis;
-        found = axis;
+        const double filled =
+            is_grid ? static_cast<double>(points.rows()) /
+                          (count_planes(points, steps[first], first) * count_planes(points, steps[second], second))
+                    : 0.0;
+        if (!found || filled > fullest) {
+            found = axis;
+            fullest = filled;
+        }
     }
     return found;
 }
 
-}  // namespace
-
-bool has_equal_steps(const Point& steps)
+/// Whether several planes have many values: between two or three alone, a step is as likely the edge of a shape.
+bool has_several_planes(const Points& points, const CoordinateSteps& steps, unsigned axis)
 {
-    return steps.maxCoeff() <= equal_steps * steps.minCoeff();
+    std::map<double, Index> counts;
+    for (Eigen::Index v = 0; v < points.rows(); ++v)
+        ++counts[steps.plane_of(points(v, axis))];
+    const double many = part_of_plane * static_cast<double>(points.rows());
+    return std::ranges::count_if(counts, [many](const auto& plane) { return plane.second >= many; }) >= least_planes;
 }
 
-CoordinateBounds bounds_of(const Points& points, const std::array<CoordinateSteps, 3>& steps, double length,
-                           const Executor& exec)
+/// Vertices away from the lattice, with all their neighbours, have not been rounded: they get no width. Those beside
+/// vertices on it are of a cut through faces that were.
+void hold_exact_vertices(const Points& points, const std::array<CoordinateSteps, 3>& steps,
+                         const IndexLists& neighbours, CoordinateBounds& bounds, const Executor& exec)
+{
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        if (bounds.steps[axis] == 0.0)
+            continue;
+        const auto is_on_plane = [&](Index v) { return steps[axis].has(points(v, axis)); };
+        for_each(exec, static_cast<Index>(points.rows()), [&](Index v) {
+            if (!is_on_plane(v) && std::ranges::none_of(neighbours[v], is_on_plane))
+                bounds.widths(v, axis) = 0.0;
+        });
+    }
+}
+
+/// The bounds by the kind of surface, without regard to single vertices.
+CoordinateBounds bounds_by_kind(const Points& points, const std::array<CoordinateSteps, 3>& steps, double length,
+                                const Executor& exec)
 {
     const auto visible = [&](double least) {
         Point found = Point::Zero();
@@ -134,26 +174,57 @@ CoordinateBounds bounds_of(const Points& points, const std::array<CoordinateStep
         return found;
     };
     const Point of_heights = visible(least_visible_height);
-    if (of_heights.isZero())
+    if (of_heights.isZero(0.0))
         return {};
     if (const std::optional<unsigned> axis = axis_of_heights(points, steps, of_heights)) {
         Point heights = Point::Zero();
         heights[*axis] = of_heights[*axis];
-        if (heights.isZero())
+        if (heights.isZero(0.0) || !has_several_planes(points, steps[*axis], *axis))
             return {};
         return {CoordinateBounds::Kind::Heights, heights, half_steps(points, heights)};
     }
     const Point of_all = visible(least_visible_step);
-    if (of_all.isZero())
+    if (of_all.isZero(0.0))
         return {};
     if (of_all.minCoeff() > 0.0)
         if (std::optional<CoordinateBounds> found = bounds_of_marching_cubes(points, steps, exec))
             return std::move(*found);
-    return bounds_of(points, of_all);
+    return {CoordinateBounds::Kind::Any, of_all, half_steps(points, of_all)};
 }
 
-CoordinateBounds bounds_of(const Points& points, const Point& steps)
+}  // namespace
+
+bool has_equal_steps(const Point& steps)
 {
+    return steps.maxCoeff() <= equal_steps * steps.minCoeff();
+}
+
+CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, double length, const Executor& exec)
+{
+    // Vertices without faces may lie anywhere.
+    const std::vector<Index> used =
+        select(exec, static_cast<Index>(points.rows()), [&](Index v) { return !neighbours[v].empty(); });
+    const Points of_used = points(used, Eigen::all);
+    const std::array<CoordinateSteps, 3> steps = find_coordinate_steps(of_used, length, exec);
+    CoordinateBounds bounds = bounds_by_kind(of_used, steps, length, exec);
+    if (bounds.kind == CoordinateBounds::Kind::None)
+        return bounds;
+    Points widths = Points::Zero(points.rows(), 3);
+    widths(used, Eigen::all) = bounds.widths;
+    bounds.widths = std::move(widths);
+    hold_exact_vertices(points, steps, neighbours, bounds, exec);
+    return bounds;
+}
+
+CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, double length, const Point& steps,
+                           const Executor& exec)
+{
+    CoordinateBounds found = bounds_of(points, neighbours, length, exec);
+    const auto agrees = [&](int axis) {
+        return found.steps[axis] == 0.0 || std::abs(found.steps[axis] - steps[axis]) <= same_step * steps[axis];
+    };
+    if (found.kind != CoordinateBounds::Kind::None && agrees(0) && agrees(1) && agrees(2))
+        return found;
     return {CoordinateBounds::Kind::Any, steps, half_steps(points, steps)};
 }
 

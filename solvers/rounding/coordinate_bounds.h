@@ -1,8 +1,7 @@
 #pragma once
 
-#include <array>
-
 #include "partition/executor.h"
+#include "partition/index_lists.h"
 #include "partition/metrics/coordinate_steps.h"
 #include "partition/polygon_mesh.h"
 
@@ -33,12 +32,16 @@ struct CoordinateBounds {
 /// Whether x, y and z have steps of about the same size.
 bool has_equal_steps(const Point& steps);
 
-/// The bounds of a surface with steps.
-/// @param points #V by 3. @param length a length of edges: steps below a tenth of it cannot be seen, and do not count.
-CoordinateBounds bounds_of(const Points& points, const std::array<CoordinateSteps, 3>& steps, double length,
+/// Finds the steps of a surface, and the bounds of its vertices. Vertices without neighbours have none, nor do those
+/// off the lattice with all their neighbours.
+/// @param points #V by 3. @param neighbours #V: the vertices that share an edge with each. @param length a length of
+/// edges: steps below a tenth of it cannot be seen, of heights below a hundredth, and do not count.
+CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, double length,
                            const Executor& exec = run_serially);
 
-/// The bounds of half a step for steps that are known. @param steps at least 0.
-CoordinateBounds bounds_of(const Points& points, const Point& steps);
+/// The bounds for steps that are known: those that are found if they have these steps, otherwise half a step for each
+/// coordinate. @param steps of x, y and z, at least 0.
+CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, double length, const Point& steps,
+                           const Executor& exec = run_serially);
 
 }  // namespace seamflow

@@ -8,16 +8,16 @@
 
 namespace seamflow {
 
-KeptVolumes::KeptVolumes(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
-                         const Executor& exec)
+KeptVolumes::KeptVolumes(const PolygonMesh& mesh, const Topology& topology, const Components& components,
+                         const Points& positions, const Executor& exec)
     : mesh_(mesh)
     , topology_(topology)
     , normals_(mesh, topology)
-    , components_(face_components(mesh, topology))
+    , components_(components)
     , kept_(usize(components_.count()), 0.0)
     , component_of_(usize(mesh.n_vertices()), -1)
 {
-    for (Index c = 0; c < components_.count(); ++c) {
+    for_each_component(exec, [&](Index c, const Executor& exec_of_faces) {
         // Where sheets meet, or faces are oriented against each other, there is no inside.
         const auto is_closed = [&](Index f) {
             const std::span<const Index> twins =
@@ -25,8 +25,8 @@ KeptVolumes::KeptVolumes(const PolygonMesh& mesh, const Topology& topology, cons
             return std::ranges::all_of(twins, [](Index twin) { return twin >= 0; });
         };
         if (topology.oriented && std::ranges::all_of(components_.nodes[c], is_closed))
-            kept_[c] = volume(c, positions, exec);
-    }
+            kept_[c] = volume(c, positions, exec_of_faces);
+    });
     for_each(exec, mesh.n_vertices(), [&](Index v) {
         const auto corners = topology.corners_at(v);
         const auto component = [&](Index corner) { return components_.component_of[topology.face_of[corner]]; };
@@ -36,19 +36,30 @@ KeptVolumes::KeptVolumes(const PolygonMesh& mesh, const Topology& topology, cons
     });
 }
 
+template <class Body>
+void KeptVolumes::for_each_component(const Executor& exec, Body&& body) const
+{
+    // Threads share few components face by face, and many one by one.
+    constexpr Index few = 16;
+    if (components_.count() > few)
+        return for_each(exec, components_.count(), [&](Index c) { body(c, run_serially); });
+    for (Index c = 0; c < components_.count(); ++c)
+        body(c, exec);
+}
+
 void KeptVolumes::restore(const Boxes& boxes, Points& positions, const Executor& exec) const
 {
     // Per component: the length by which its vertices move along their normals: the missing volume by the area.
     std::vector<double> lengths(kept_.size(), 0.0);
-    for (Index c = 0; c < components_.count(); ++c) {
+    for_each_component(exec, [&](Index c, const Executor& exec_of_faces) {
         if (kept_[c] == 0.0)
-            continue;
+            return;
         const std::span<const Index> faces = components_.nodes[c];
-        const double area = sum(exec, static_cast<Index>(faces.size()),
+        const double area = sum(exec_of_faces, static_cast<Index>(faces.size()),
                                 [&](Index i) { return vector_area(mesh_.face(faces[i]), positions).norm(); });
         if (area > 0.0)
-            lengths[c] = (kept_[c] - volume(c, positions, exec)) / area;
-    }
+            lengths[c] = (kept_[c] - volume(c, positions, exec_of_faces)) / area;
+    });
     const Points before = positions;
     for_each(exec, mesh_.n_vertices(), [&](Index v) {
         const Index c = component_of_[v];

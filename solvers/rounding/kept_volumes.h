@@ -14,21 +14,26 @@ namespace seamflow {
 /// rounding takes as often as it adds.
 class KeptVolumes {
   public:
-    /// @param mesh, topology with twins; both must outlive the object. @param positions #V by 3: those with the volumes
-    /// that are kept.
-    KeptVolumes(const PolygonMesh& mesh, const Topology& topology, const Points& positions, const Executor& exec);
+    /// @param mesh, topology with twins, components of its faces; all must outlive the object. @param positions #V by
+    /// 3: those with the volumes that are kept.
+    KeptVolumes(const PolygonMesh& mesh, const Topology& topology, const Components& components,
+                const Points& positions, const Executor& exec);
 
     /// Moves the vertices of each component along their normals, all by the same length, as far as their boxes allow,
     /// so that the volume comes nearer to that which is kept. Components that enclose no volume stay.
     void restore(const Boxes& boxes, Points& positions, const Executor& exec) const;
 
   private:
+    /// Calls body(component, executor for loops over its faces) for each component.
+    template <class Body>
+    void for_each_component(const Executor& exec, Body&& body) const;
+
     [[nodiscard]] double volume(Index component, const Points& positions, const Executor& exec) const;
 
     const PolygonMesh& mesh_;
     const Topology& topology_;
     VertexNormals normals_;
-    Components components_;
+    const Components& components_;
     /// Per component: the volume that is kept; 0 for components that enclose none.
     std::vector<double> kept_;
     /// #V: the component of the faces of each vertex; -1 at vertices without faces, and where several components meet.

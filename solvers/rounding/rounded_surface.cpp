@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "partition/connected_components.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/vector_area.h"
 #include "solvers/denoising/face_averages.h"
@@ -35,6 +38,10 @@ struct Evidence {
     double near;
     double weight;
     double most;
+
+    /// @param fraction of the vertices that are near a bound. Where true places lie anywhere between the bounds, as
+    /// those of heights do, 1 - near of them are.
+    [[nodiscard]] double of(double fraction) const { return weight * std::max(fraction - (1.0 - near), 0.0); }
 };
 
 /// In brackets the sums of digitised shapes (balls, tori, tubes, boxes, plates, egg crates, terrains), then those of
@@ -44,13 +51,13 @@ Evidence evidence_for(CoordinateBounds::Kind kind)
     switch (kind) {
     case CoordinateBounds::Kind::Heights:
         // [.21 to .87; 1.08 to 3.0; stairs of equal treads, which a ramp becomes, too, .12 to .53]
-        return {.near = 0.9, .weight = 3.0, .most = 1.0};
+        return {.near = 0.9, .weight = 3.0, .most = 0.9};
     case CoordinateBounds::Kind::MarchingCubes:
         // [.18 to .66, two slices of plates and crates above; .67 to 1.4, stairs of one or two voxels .39 to .63]
-        return {.near = 0.98, .weight = 2.0, .most = 0.66};
+        return {.near = 0.98, .weight = 2.0, .most = 0.635};
     default:
         // [.14 to .465; .475 to 1.1]
-        return {.near = 0.98, .weight = 1.0, .most = 0.47};
+        return {.near = 0.98, .weight = 1.0, .most = 0.45};
     }
 }
 
@@ -58,69 +65,114 @@ Evidence evidence_for(CoordinateBounds::Kind kind)
 constexpr double last_motion = 0.002;
 constexpr int most_turns = 400;
 
-/// The total bending of a surface: Σ l θ over its edges of two faces, with the length l and the angle θ between the
-/// normals of the faces. It is the same for a convex body and its rounded copies, however sharp its edges are, and
-/// grows with every wave: what stairs add to it disappears with them. Edges between vertices without bounds do not
-/// count.
-double total_bending(const PolygonMesh& mesh, const Topology& topology, const Points& widths, const Points& positions,
-                     const Executor& exec)
-{
-    const auto normal_of = [&](Index h) -> Point {
-        return vector_area(mesh.face(topology.face_of[usize(h)]), positions);
-    };
-    return sum(exec, mesh.n_corners(), [&](Index h) {
-        const Index twin = topology.twin[usize(h)];
+/// The parts of a surface that are judged one by one: its components, but for small ones, which are one part together.
+class Parts {
+  public:
+    Parts(const PolygonMesh& mesh, const Topology& topology, const Components& components)
+        : mesh_(mesh)
+        , topology_(topology)
+        , components_(components)
+        , part_of_(usize(components.count()), 0)
+    {
+        for (Index c = 0; c < components.count(); ++c)
+            if (components.nodes[c].size() >= small_component)
+                part_of_[c] = count_++;
+    }
+
+    [[nodiscard]] Index count() const { return count_; }
+
+    /// The part of the first face of a vertex; -1 for vertices without faces.
+    [[nodiscard]] Index of_vertex(Index v) const
+    {
+        const auto corners = topology_.corners_at(v);
+        return corners.empty() ? -1 : part_of_[components_.component_of[topology_.face_of[corners.front()]]];
+    }
+
+    /// The total bending of each part: Σ l θ over its edges of two faces, with the length l and the angle θ between the
+    /// normals of the faces. It is the same for a convex body and its rounded copies, however sharp its edges are, and
+    /// grows with every wave: what stairs add to it disappears with them. Edges of vertices without bounds do not
+    /// count.
+    [[nodiscard]] std::vector<double> bending(const Points& widths, const Points& positions, const Executor& exec) const
+    {
+        std::vector<double> of_halfedges(usize(mesh_.n_corners()));
+        for_each(exec, mesh_.n_corners(), [&](Index h) { of_halfedges[h] = bending_at(h, widths, positions); });
+        std::vector<double> of_parts(usize(count_), 0.0);
+        for (Index h = 0; h < mesh_.n_corners(); ++h)
+            of_parts[part_of_[components_.component_of[topology_.face_of[h]]]] += of_halfedges[h];
+        return of_parts;
+    }
+
+  private:
+    static constexpr std::size_t small_component = 200;
+
+    [[nodiscard]] double bending_at(Index h, const Points& widths, const Points& positions) const
+    {
+        const Index twin = topology_.twin[h];
         if (twin < h)
             return 0.0;
-        const Index v = mesh.face_vertices[usize(h)];
-        const Index w = mesh.face_vertices[usize(topology.next(mesh, h))];
-        if (widths.row(v).isZero(0.0) && widths.row(w).isZero(0.0))
+        const Index v = mesh_.face_vertices[h];
+        const Index w = mesh_.face_vertices[topology_.next(mesh_, h)];
+        if (widths.row(v).isZero(0.0) || widths.row(w).isZero(0.0))
             return 0.0;
-        const Point normal = normal_of(h);
-        Point other = normal_of(twin);
+        const Point normal = vector_area(mesh_.face(topology_.face_of[h]), positions);
+        Point other = vector_area(mesh_.face(topology_.face_of[twin]), positions);
         // Half-edges in the same direction belong to faces with opposite orientations.
-        if (mesh.face_vertices[usize(twin)] == v)
+        if (mesh_.face_vertices[twin] == v)
             other = -other;
         const double sine = Eigen::RowVector3d(normal.cross(other)).norm();
         return (positions.row(w) - positions.row(v)).norm() * std::atan2(sine, normal.dot(other));
-    });
+    }
+
+    const PolygonMesh& mesh_;
+    const Topology& topology_;
+    const Components& components_;
+    /// Per component. Part 0 has the small ones.
+    std::vector<Index> part_of_;
+    Index count_ = 1;
+};
+
+double total(const std::vector<double>& of_parts)
+{
+    return std::accumulate(of_parts.begin(), of_parts.end(), 0.0);
 }
 
 /// Smooths the normals of a surface within bounds.
 class NormalsInBoxes {
   public:
-    NormalsInBoxes(const PolygonMesh& mesh, const Topology& topology, const Boxes& boxes, const Executor& exec)
+    NormalsInBoxes(const PolygonMesh& mesh, const Topology& topology, const Components& components, const Parts& parts,
+                   const Boxes& boxes, const Executor& exec)
         : mesh_(mesh)
         , topology_(topology)
+        , parts_(parts)
         , boxes_(boxes)
         , exec_(exec)
         , averages_(mesh, topology, exec)
-        , volumes_(mesh, topology, boxes.middles, exec)
+        , volumes_(mesh, topology, components, boxes.middles, exec)
     {
     }
 
     /// Averages normals over chords of `sigma` and fits the vertices to them, several times.
-    /// @returns the total bending of the result.
-    double smooth(float sigma, Points& positions)
+    /// @returns the bending of each part of the result.
+    std::vector<double> smooth(float sigma, Points& positions)
     {
-        double least = bending(positions);
+        std::vector<double> least = bending(positions);
         for (int group = 0; group < n_groups; ++group) {
             Points further = positions;
             for (int i = 0; i < group_of_fits; ++i)
                 smooth_once(sigma, further);
-            const double bending_further = bending(further);
+            std::vector<double> of_further = bending(further);
             // The first group may bend a surface more that is to become one with edges.
-            if (group > 0 && !(bending_further < least))
+            if (group > 0 && !(total(of_further) < total(least)))
                 break;
-            least = bending_further;
+            least = std::move(of_further);
             positions = std::move(further);
         }
         return least;
     }
 
-    [[nodiscard]] double bending(const Points& positions) const
+    [[nodiscard]] std::vector<double> bending(const Points& positions) const
     {
-        return total_bending(mesh_, topology_, boxes_.widths, positions, exec_);
+        return parts_.bending(boxes_.widths, positions, exec_);
     }
 
   private:
@@ -166,6 +218,7 @@ class NormalsInBoxes {
 
     const PolygonMesh& mesh_;
     const Topology& topology_;
+    const Parts& parts_;
     const Boxes& boxes_;
     const Executor& exec_;
     FaceAverages averages_;
@@ -175,25 +228,46 @@ class NormalsInBoxes {
     FaceVectors means_;
 };
 
-/// The fraction of the vertices with bounds that have moved by at least the fraction `near` of their width, in a
-/// direction in which bounds are widest, in steps.
-double fraction_near_bounds(const Boxes& boxes, const Point& steps, double near, const Points& positions,
-                            const Executor& exec)
+/// Whether a vertex has moved by at least the fraction `near` of its width, in a direction in which bounds are widest,
+/// in steps; nothing for vertices with less than the whole bounds.
+std::optional<bool> is_near_bound(const Boxes& boxes, const Point& steps, double near, const Points& positions, Index v)
 {
-    Eigen::Array2d counts = sum(
-        exec, static_cast<Index>(positions.rows()),
-        [&](Index v) {
-            const Point motion = (positions.row(v) - boxes.middles.row(v)).cwiseAbs();
-            const Point width = boxes.widths.row(v);
-            const Point in_steps = (steps.array() > 0.0).select(width.array() / steps.array(), 0.0);
-            const bool has_bounds = in_steps.maxCoeff() > 0.0;
-            const bool is_near =
-                has_bounds &&
-                (in_steps.array() >= near * in_steps.maxCoeff() && motion.array() >= near * width.array()).any();
-            return Eigen::Array2d(is_near ? 1.0 : 0.0, has_bounds ? 1.0 : 0.0);
-        },
-        Eigen::Array2d(0.0, 0.0));
-    return counts[1] > 0.0 ? counts[0] / counts[1] : 0.0;
+    const Point motion = (positions.row(v) - boxes.middles.row(v)).cwiseAbs();
+    const Point width = boxes.widths.row(v);
+    const Point in_steps = (steps.array() > 0.0).select(width.array() / steps.array(), 0.0);
+    // Within a part of the bounds, which a strength leaves, more vertices are near them.
+    constexpr double nearly_half = 0.49;
+    if (!(in_steps.maxCoeff() > nearly_half))
+        return std::nullopt;
+    return (in_steps.array() >= near * in_steps.maxCoeff() && motion.array() >= near * width.array()).any();
+}
+
+/// Per part: the fraction of the vertices with bounds that are near one.
+std::vector<double> fractions_near_bounds(const Parts& parts, const Boxes& boxes, const CoordinateBounds& bounds,
+                                          const Points& positions)
+{
+    std::vector<double> near(usize(parts.count()), 0.0);
+    std::vector<double> all(usize(parts.count()), 0.0);
+    const double fraction = evidence_for(bounds.kind).near;
+    for (Index v = 0; v < static_cast<Index>(positions.rows()); ++v)
+        if (const Index part = parts.of_vertex(v); part >= 0)
+            if (const auto is_near = is_near_bound(boxes, bounds.steps, fraction, positions, v)) {
+                all[part] += 1.0;
+                near[part] += *is_near ? 1.0 : 0.0;
+            }
+    for (std::size_t part = 0; part < all.size(); ++part)
+        near[part] = all[part] > 0.0 ? near[part] / all[part] : 0.0;
+    return near;
+}
+
+/// Takes the positions of the vertices of some parts.
+void take(const Parts& parts, const std::vector<std::uint8_t>& taken, const Points& from, Points& positions,
+          const Executor& exec)
+{
+    for_each(exec, static_cast<Index>(positions.rows()), [&](Index v) {
+        if (const Index part = parts.of_vertex(v); part >= 0 && taken[part] != 0)
+            positions.row(v) = from.row(v);
+    });
 }
 
 bool begins_with_fairing(const CoordinateBounds& bounds)
@@ -203,50 +277,74 @@ bool begins_with_fairing(const CoordinateBounds& bounds)
 
 }  // namespace
 
-bool SmoothedWithinSteps::explains_roughness() const
-{
-    const Evidence evidence = evidence_for(kind);
-    return bending + evidence.weight * near_bounds <= evidence.most;
-}
-
 SmoothedWithinSteps smooth_within(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                                   CoordinateBounds bounds, const std::vector<double>& strengths, const Executor& exec)
 {
     for_each(exec, mesh.n_vertices(), [&](Index v) {
-        const double strength = strengths.empty() ? 1.0 : strengths[usize(v)];
+        const double strength = strengths.empty() ? 1.0 : strengths[v];
         bounds.widths.row(v) *= topology.moves(v) ? strength : 0.0;
     });
     const Boxes boxes{positions, bounds.widths};
-    SmoothedWithinSteps result{.positions = positions, .kind = bounds.kind, .steps = bounds.steps};
+    SmoothedWithinSteps result{.positions = positions, .steps = bounds.steps};
+    const double smallest_step = (bounds.steps.array() > 0.0).select(bounds.steps, bounds.steps.maxCoeff()).minCoeff();
     if (begins_with_fairing(bounds))
         result.fairing = fair_in_boxes(VertexAverages(mesh, topology, exec).neighbours(), boxes,
-                                       {most_turns, last_motion * bounds.steps.maxCoeff()}, result.positions, exec);
-    NormalsInBoxes normals(mesh, topology, boxes, exec);
+                                       {most_turns, last_motion * smallest_step}, result.positions, exec);
+    result.fairing.last_motion /= smallest_step;
+    const Components components = face_components(mesh, topology);
+    const Parts parts(mesh, topology, components);
+    NormalsInBoxes normals(mesh, topology, components, parts, boxes, exec);
     Points with_edges = result.positions;
-    double bending = normals.smooth(all_normals, result.positions);
-    const double bending_with_edges = normals.smooth(same_side, with_edges);
-    if (bending_with_edges < bends_less * bending) {
-        bending = bending_with_edges;
-        result.positions = std::move(with_edges);
+    std::vector<double> bending = normals.smooth(all_normals, result.positions);
+    const std::vector<double> bending_with_edges = normals.smooth(same_side, with_edges);
+    std::vector<std::uint8_t> taken(bending.size(), 0);
+    for (std::size_t part = 0; part < bending.size(); ++part)
+        if (bending_with_edges[part] < bends_less * bending[part]) {
+            taken[part] = 1;
+            bending[part] = bending_with_edges[part];
+        }
+    take(parts, taken, with_edges, result.positions, exec);
+
+    const std::vector<double> before = normals.bending(positions);
+    const std::vector<double> near = fractions_near_bounds(parts, boxes, bounds, result.positions);
+    const Evidence evidence = evidence_for(bounds.kind);
+    std::vector<std::uint8_t> is_unexplained(bending.size(), 0);
+    for (std::size_t part = 0; part < bending.size(); ++part) {
+        const bool explains =
+            before[part] > 0.0 && bending[part] / before[part] + evidence.of(near[part]) <= evidence.most;
+        is_unexplained[part] = explains ? 0 : 1;
+        result.explains_roughness = result.explains_roughness || explains;
     }
-    const double before = normals.bending(positions);
-    result.bending = before > 0.0 ? bending / before : 1.0;
-    result.near_bounds =
-        fraction_near_bounds(boxes, bounds.steps, evidence_for(bounds.kind).near, result.positions, exec);
+    result.where_explained = result.positions;
+    take(parts, is_unexplained, positions, result.where_explained, exec);
     return result;
+}
+
+CoordinateBounds find_bounds(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                             const Executor& exec)
+{
+    return bounds_of(positions, VertexAverages(mesh, topology, exec).neighbours(),
+                     mean_edge_length(mesh, positions, exec), exec);
+}
+
+CoordinateBounds bounds_of(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                           const Point& steps, const Executor& exec)
+{
+    return bounds_of(positions, VertexAverages(mesh, topology, exec).neighbours(),
+                     mean_edge_length(mesh, positions, exec), steps, exec);
 }
 
 std::optional<SmoothedWithinSteps> smooth_rounded(const PolygonMesh& mesh, const Topology& topology,
                                                   const Points& positions, const std::vector<double>& strengths,
                                                   const Executor& exec)
 {
-    const double length = mean_edge_length(mesh, positions, exec);
-    CoordinateBounds bounds = bounds_of(positions, find_coordinate_steps(positions, length, exec), length, exec);
+    CoordinateBounds bounds = find_bounds(mesh, topology, positions, exec);
     if (bounds.kind == CoordinateBounds::Kind::None)
         return std::nullopt;
     SmoothedWithinSteps smoothed = smooth_within(mesh, topology, positions, std::move(bounds), strengths, exec);
-    if (!smoothed.explains_roughness())
+    if (!smoothed.explains_roughness)
         return std::nullopt;
+    smoothed.positions = std::move(smoothed.where_explained);
     return smoothed;
 }
 

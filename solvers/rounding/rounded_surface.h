@@ -16,20 +16,16 @@ namespace seamflow {
 struct SmoothedWithinSteps {
     /// #V by 3.
     Points positions;
-    CoordinateBounds::Kind kind = CoordinateBounds::Kind::None;
     /// The steps of x, y and z, in units of length; 0: not rounded.
     Point steps = Point::Zero();
-    /// The total bending, Σ l θ over edges of length l between faces at the angle θ, as a fraction of that before.
-    double bending = 1.0;
-    /// The fraction of the vertices, of those with bounds, that are nearly as far from where they were as the bounds
-    /// allow.
-    double near_bounds = 0.0;
+    /// The last motion is in smallest steps.
     FairingReport fairing = {};
-
-    /// Whether rounding explains the roughness of the surface: within half a step it is much smoother, and only few
+    /// Whether rounding explains the roughness of any component: within half a step it bends much less, and only few
     /// vertices would have to go further. On noise, which goes beyond half a step, and on shapes with edges at whole
-    /// numbers, such as a box of blocks, either does not hold.
-    [[nodiscard]] bool explains_roughness() const;
+    /// numbers, such as a box of blocks, either does not hold. Components of fewer than 200 faces are judged together.
+    bool explains_roughness = false;
+    /// #V by 3: `positions` on these components, those before on the others.
+    Points where_explained = Points(0, 3);
 };
 
 /// Finds a smooth surface within bounds. First comes the fairest surface in the boxes (see fair_in_boxes), but for
@@ -43,9 +39,18 @@ SmoothedWithinSteps smooth_within(const PolygonMesh& mesh, const Topology& topol
                                   CoordinateBounds bounds, const std::vector<double>& strengths,
                                   const Executor& exec = run_serially);
 
+/// The bounds of a surface (see bounds_of).
+CoordinateBounds find_bounds(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                             const Executor& exec = run_serially);
+
+/// The bounds of a surface whose steps are known (see bounds_of).
+CoordinateBounds bounds_of(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                           const Point& steps, const Executor& exec = run_serially);
+
 /// Finds the steps of the coordinates, and the smooth surface within half a step.
 /// @param mesh, topology, positions, strengths as for smooth_within.
-/// @returns nothing where coordinates have no steps, or where these do not explain the roughness.
+/// @returns the surface in which only components move whose roughness the steps explain; nothing if there are none, or
+/// no steps.
 std::optional<SmoothedWithinSteps> smooth_rounded(const PolygonMesh& mesh, const Topology& topology,
                                                   const Points& positions, const std::vector<double>& strengths,
                                                   const Executor& exec = run_serially);

@@ -37,7 +37,7 @@ TEST_CASE("smooth and inspect name rounded coordinates, and a report has them")
     CHECK(report["fairing_turns"] > 10);
     CHECK(report["fairing_last_motion"] < 0.01);
     REQUIRE(w.run(INSPECT " rounded.obj") == 0);
-    CHECK(w.said().find("rounded    coordinates are multiples of 1 in z") != std::string::npos);
+    CHECK(w.said().find("rounded    coordinates lie in steps of 1 in z") != std::string::npos);
     CHECK(w.said().find("noise") == std::string::npos);
     REQUIRE(w.run(INSPECT " rounded.obj --json") == 0);
     CHECK(w.said().find("\"rounded\"") != std::string::npos);
@@ -54,6 +54,8 @@ TEST_CASE("--rounded says what is rounded, and never that nothing is")
     CHECK(w.run("cmp found.obj given.obj") == 0);
     REQUIRE(w.smooth("rounded.obj never.obj --rounded never --report report.json") == 0);
     CHECK_FALSE(w.json("report.json").contains("rounded"));
+    REQUIRE(w.smooth("rounded.obj edges.obj --keep-edges 30") == 0);
+    CHECK(w.said().find("rounded") == std::string::npos);
     for (const std::string value : {"0", "-1", "x", "1,1", "1,1,-1", "0,0,0", "nan", "1,1,1,1"}) {
         CAPTURE(value);
         CHECK(w.smooth("rounded.obj out.obj --rounded " + value) != 0);
@@ -62,7 +64,7 @@ TEST_CASE("--rounded says what is rounded, and never that nothing is")
     for (const std::string amount : {"--radius 2", "--steps 2 --time-step 1", "--laplacian fujiwara"}) {
         CAPTURE(amount);
         CHECK(w.smooth("rounded.obj out.obj --rounded 1 " + amount) != 0);
-        CHECK(w.said().find("--rounded says within which bounds the smoothest surface is looked for") !=
+        CHECK(w.said().find("--rounded bounds the smoothest surface, which is looked for without an amount") !=
               std::string::npos);
     }
 }

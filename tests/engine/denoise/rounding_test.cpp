@@ -16,7 +16,7 @@ using test::same_bits;
 
 namespace {
 
-PolygonMesh voxels()
+PolygonMesh voxel_ball()
 {
     return test::voxel_faces(ball(7.3), 20);
 }
@@ -26,7 +26,7 @@ DenoiseOptions with_rounding(const Rounding& rounding)
     return {.method = RemoveNoise{.rounding = rounding}};
 }
 
-DenoiseReport denoised(PolygonMesh& mesh, const DenoiseOptions& options = {})
+DenoiseReport denoise_in_place(PolygonMesh& mesh, const DenoiseOptions& options = {})
 {
     return denoise(mesh, options);
 }
@@ -45,8 +45,8 @@ double furthest(const PolygonMesh& mesh, const PolygonMesh& before)
 
 TEST_CASE("denoise finds rounded coordinates, and reports them in place of noise")
 {
-    PolygonMesh mesh = voxels();
-    const DenoiseReport report = denoised(mesh);
+    PolygonMesh mesh = voxel_ball();
+    const DenoiseReport report = denoise_in_place(mesh);
     REQUIRE(report.rounding);
     CHECK((report.rounding->steps - Point::Ones()).cwiseAbs().maxCoeff() < 1e-9);
     CHECK(report.rounding->turns > 10);
@@ -55,7 +55,7 @@ TEST_CASE("denoise finds rounded coordinates, and reports them in place of noise
     CHECK(report.noise->part == 0.0);
     CHECK(names(report.choices, "rounded coordinates"));
     CHECK_FALSE(names(report.remarks, "no noise"));
-    CHECK(furthest(mesh, voxels()) <= 0.5);
+    CHECK(furthest(mesh, voxel_ball()) <= 0.5);
 }
 
 TEST_CASE("steps that are given are taken without a look, and never is never")
@@ -64,27 +64,27 @@ TEST_CASE("steps that are given are taken without a look, and never is never")
     const auto plateau = [](double x, double) { return x < 10.0 ? 0.0 : 1.0; };
     const PolygonMesh step = test::height_grid(21, plateau);
     PolygonMesh mesh = step;
-    CHECK_FALSE(denoised(mesh).rounding);
+    CHECK_FALSE(denoise_in_place(mesh).rounding);
     CHECK(same_bits(mesh.vertices, step.vertices));
-    REQUIRE(denoised(mesh, with_rounding({Rounding::Kind::Given, Point(0.0, 0.0, 1.0)})).rounding);
+    REQUIRE(denoise_in_place(mesh, with_rounding({Rounding::Kind::Given, Point(0.0, 0.0, 1.0)})).rounding);
     CHECK(furthest(mesh, step) > 0.3);
     CHECK(furthest(mesh, step) <= 0.5);
     CHECK(mesh.vertices.leftCols<2>() == step.vertices.leftCols<2>());
 
-    PolygonMesh as_noise = voxels();
-    CHECK_FALSE(denoised(as_noise, with_rounding({.kind = Rounding::Kind::Never})).rounding);
+    PolygonMesh as_noise = voxel_ball();
+    CHECK_FALSE(denoise_in_place(as_noise, with_rounding({.kind = Rounding::Kind::Never})).rounding);
 }
 
 TEST_CASE("rounded coordinates: vertices that are held stay, also those of feature edges and without faces")
 {
-    PolygonMesh mesh = voxels();
+    PolygonMesh mesh = voxel_ball();
     mesh.vertices.conservativeResize(mesh.n_vertices() + 1, 3);
     mesh.vertices.row(mesh.n_vertices() - 1) = Point(0.25, 0.1, 0.7);
     const PolygonMesh before = mesh;
     DenoiseOptions options = with_rounding({Rounding::Kind::Given, Point::Ones()});
     options.motion.fixed_vertices = {3, 4};
     options.motion.feature_edges = {{mesh.face(20)[0], mesh.face(20)[1]}, {mesh.face(20)[1], mesh.face(20)[2]}};
-    REQUIRE(denoised(mesh, options).rounding);
+    REQUIRE(denoise_in_place(mesh, options).rounding);
     for (const Index v :
          {Index{3}, Index{4}, mesh.face(20)[0], mesh.face(20)[1], mesh.face(20)[2], mesh.n_vertices() - 1})
         CHECK(same_bits(mesh.vertices.row(v), before.vertices.row(v)));
@@ -95,18 +95,18 @@ TEST_CASE("rounded coordinates: the same bits on any number of threads, after a 
 {
     DenoiseOptions options;
     options.steps = 2;
-    PolygonMesh whole = voxels();
+    PolygonMesh whole = voxel_ball();
     std::shared_ptr<const FlowState> after_first;
-    const DenoiseReport report = denoise(whole, options, [&](const StepResult& result) {
-        if (result.step == 1)
-            after_first = result.capture();
+    const DenoiseReport report = denoise(whole, options, [&](const StepState& state) {
+        if (state.step == 1)
+            after_first = state.capture();
     });
     REQUIRE(report.rounding);
     options.threads = 1;
-    PolygonMesh serial = voxels();
+    PolygonMesh serial = voxel_ball();
     denoise(serial, options);
     CHECK(same_bits(serial.vertices, whole.vertices));
-    PolygonMesh resumed = voxels();
+    PolygonMesh resumed = voxel_ball();
     const DenoiseReport again = denoise(resumed, options, {}, {.resume = after_first});
     CHECK(same_bits(resumed.vertices, whole.vertices));
     REQUIRE(again.rounding);
@@ -115,8 +115,28 @@ TEST_CASE("rounded coordinates: the same bits on any number of threads, after a 
     CHECK(again.choices == report.choices);
 
     // A state belongs to the rounding with which it was made.
-    PolygonMesh other = voxels();
+    PolygonMesh other = voxel_ball();
     DenoiseOptions never = with_rounding({.kind = Rounding::Kind::Never});
     never.steps = 2;
     CHECK_THROWS_AS(denoise(other, never, {}, {.resume = after_first}), InputError);
+}
+
+TEST_CASE("rounded coordinates: vertices that move along an axis keep the bounds, and oblique directions have none")
+{
+    PolygonMesh mesh = voxel_ball();
+    DenoiseOptions options = with_rounding({Rounding::Kind::Given, Point::Ones()});
+    options.motion.direction = {MotionDirection::Kind::Vector, Point(0.0, 0.0, 2.0)};
+    REQUIRE(denoise_in_place(mesh, options).rounding);
+    CHECK(mesh.vertices.leftCols<2>() == voxel_ball().vertices.leftCols<2>());
+    CHECK(furthest(mesh, voxel_ball()) <= 0.5 + 1e-12);
+    CHECK(furthest(mesh, voxel_ball()) > 0.3);
+    for (const MotionDirection& direction :
+         {MotionDirection{MotionDirection::Kind::Normal}, {MotionDirection::Kind::Vector, Point(1.0, 0.3, 0.0)}}) {
+        options.motion.direction = direction;
+        CHECK_THROWS_AS(denoise_in_place(mesh, options), OptionError);
+        PolygonMesh found = voxel_ball();
+        DenoiseOptions without_steps;
+        without_steps.motion.direction = direction;
+        CHECK_FALSE(denoise_in_place(found, without_steps).rounding);
+    }
 }

@@ -59,7 +59,7 @@ TEST_CASE("no motion within the boxes makes the surface fairer")
         for (int axis = 0; axis < 3; ++axis) {
             const double motion = positions(v, axis) - problem.mesh.vertices(v, axis);
             const double width = problem.widths(v, axis);
-            CHECK(std::abs(motion) <= width);
+            CHECK(std::abs(motion) <= width * (1.0 + 1e-12));
             const bool is_at_bound = std::abs(motion) > width - 1e-9;
             n_at_bounds += is_at_bound && width > 0.0 ? 1 : 0;
             // Inside of a box nothing is left to gain; at a bound, only beyond it.
