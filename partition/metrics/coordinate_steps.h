@@ -25,8 +25,8 @@ struct CoordinateSteps {
 
 /// Finds the steps of x, y and z: those with which most vertices lie on planes, at least four fifths of them. The
 /// others may lie anywhere, as after a cut. Of steps with about as many vertices, the largest counts.
-/// @param points #V by 3. @param length a length of edges: planes nearer to each other than a two-hundredth of it are not
-/// told apart, and values nearer than a hundred-thousandth are one value.
+/// @param points #V by 3. @param length a length of edges: planes nearer to each other than a two-hundredth of it are
+/// not told apart, and values nearer than a hundred-thousandth are one value.
 std::array<CoordinateSteps, 3> find_coordinate_steps(const Points& points, double length,
                                                      const Executor& exec = run_serially);
 

@@ -23,6 +23,8 @@ namespace {
 /// The chords of unit normals over which normals are averaged: between all neighbours, and on one side of an edge.
 constexpr float all_normals = 1.5F;
 constexpr float same_side = 0.3F;
+/// A group is the last if it has taken less than this fraction of the bending.
+constexpr double least_gain = 0.002;
 /// Normals are averaged and vertices fitted to them this many times, in groups, until a group makes the surface bend no
 /// less; and the rounds of averaging and of fitting each time.
 constexpr int n_groups = 4;
@@ -136,6 +138,12 @@ double total(const std::vector<double>& of_parts)
     return std::accumulate(of_parts.begin(), of_parts.end(), 0.0);
 }
 
+/// Whether a part with edges that are kept bends hardly less than it does without.
+bool bends_no_less(double with_edges, double without)
+{
+    return !(with_edges < bends_less * without);
+}
+
 /// Smooths the normals of a surface within bounds.
 class NormalsInBoxes {
   public:
@@ -152,8 +160,10 @@ class NormalsInBoxes {
     }
 
     /// Averages normals over chords of `sigma` and fits the vertices to them, several times.
+    /// @param of_other the bending of each part of another surface: there are no further groups if after the first one
+    /// no part bends clearly less. Empty: no other surface.
     /// @returns the bending of each part of the result.
-    std::vector<double> smooth(float sigma, Points& positions)
+    std::vector<double> smooth(float sigma, Points& positions, const std::vector<double>& of_other = {})
     {
         std::vector<double> least = bending(positions);
         for (int group = 0; group < n_groups; ++group) {
@@ -162,10 +172,15 @@ class NormalsInBoxes {
                 smooth_once(sigma, further);
             std::vector<double> of_further = bending(further);
             // The first group may bend a surface more that is to become one with edges.
-            if (group > 0 && !(total(of_further) < total(least)))
+            const double gain = total(least) - total(of_further);
+            if (group > 0 && !(gain > 0.0))
                 break;
             least = std::move(of_further);
             positions = std::move(further);
+            if (group > 0 && gain < least_gain * total(least))
+                break;
+            if (group == 0 && !of_other.empty() && std::ranges::equal(least, of_other, bends_no_less))
+                break;
         }
         return least;
     }
@@ -296,10 +311,10 @@ SmoothedWithinSteps smooth_within(const PolygonMesh& mesh, const Topology& topol
     NormalsInBoxes normals(mesh, topology, components, parts, boxes, exec);
     Points with_edges = result.positions;
     std::vector<double> bending = normals.smooth(all_normals, result.positions);
-    const std::vector<double> bending_with_edges = normals.smooth(same_side, with_edges);
+    const std::vector<double> bending_with_edges = normals.smooth(same_side, with_edges, bending);
     std::vector<std::uint8_t> taken(bending.size(), 0);
     for (std::size_t part = 0; part < bending.size(); ++part)
-        if (bending_with_edges[part] < bends_less * bending[part]) {
+        if (!bends_no_less(bending_with_edges[part], bending[part])) {
             taken[part] = 1;
             bending[part] = bending_with_edges[part];
         }

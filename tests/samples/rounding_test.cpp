@@ -43,7 +43,7 @@ TEST_CASE("smooth and inspect name rounded coordinates, and a report has them")
     CHECK(w.said().find("\"rounded\"") != std::string::npos);
     // The result is not rounded, and has no noise.
     REQUIRE(w.smooth("out.obj again.obj") == 0);
-    CHECK(w.said().find("rounded") == std::string::npos);
+    CHECK(w.said().find("rounded to") == std::string::npos);
 }
 
 TEST_CASE("--rounded says what is rounded, and never that nothing is")
@@ -55,7 +55,7 @@ TEST_CASE("--rounded says what is rounded, and never that nothing is")
     REQUIRE(w.smooth("rounded.obj never.obj --rounded never --report report.json") == 0);
     CHECK_FALSE(w.json("report.json").contains("rounded"));
     REQUIRE(w.smooth("rounded.obj edges.obj --keep-edges 30") == 0);
-    CHECK(w.said().find("rounded") == std::string::npos);
+    CHECK(w.said().find("rounded to") == std::string::npos);
     for (const std::string value : {"0", "-1", "x", "1,1", "1,1,-1", "0,0,0", "nan", "1,1,1,1"}) {
         CAPTURE(value);
         CHECK(w.smooth("rounded.obj out.obj --rounded " + value) != 0);
