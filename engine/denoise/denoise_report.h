@@ -20,8 +20,9 @@ struct NoiseReport {
 struct RoundingReport {
     /// The steps of x, y and z, in units of length; 0: not rounded.
     Point steps = Point::Zero();
-    /// The number of turns that the fairing took, and the largest motion of a coordinate in the last one, in steps.
-    int turns = 0;
+    /// The number of iterations that the fairing took, and the largest motion of a coordinate in the last one, in
+    /// smallest steps; 0 for marching cubes of equal steps, where there is no fairing.
+    int iterations = 0;
     double last_motion = 0.0;
 };
 

@@ -31,20 +31,24 @@ bool has_steps(const DenoiseOptions& options)
     return method != nullptr && method->rounding.kind == Rounding::Kind::Given;
 }
 
-/// Whether vertices move along lines that are not parallel to an axis.
-bool is_oblique(const MotionDirection& direction)
+/// Whether steps are given, but none in the direction of an axis along which vertices move.
+bool has_no_step_along(const DenoiseOptions& options)
 {
-    return direction.kind == MotionDirection::Kind::Normal ||
-           (direction.kind == MotionDirection::Kind::Vector && (direction.vector.array() != 0.0).count() > 1);
+    const MotionDirection& direction = options.motion.direction;
+    if (!has_steps(options) || direction.kind != MotionDirection::Kind::Vector || direction.is_oblique())
+        return false;
+    return std::get<RemoveNoise>(options.method).rounding.steps.cwiseProduct(direction.vector).isZero(0.0);
 }
 
 /// The rules on options that a method excludes.
 constexpr OptionRule<DenoiseOptions> of_methods[]{
     {[](const DenoiseOptions& o, const Asked& asked) { return is<SmoothRims>(o) && asked.has("feature_edges"); }, 0,
      "<feature_edges> names edges to keep, but the boundary alone moves: leave them out"},
-    {[](const DenoiseOptions& o, const Asked&) { return has_steps(o) && is_oblique(o.motion.direction); }, 0,
+    {[](const DenoiseOptions& o, const Asked&) { return has_steps(o) && o.motion.direction.is_oblique(); }, 0,
      "<rounded> bounds x, y and z one by one, which vertices that move along <direction> cannot keep: give an axis, or "
      "leave one of them out"},
+    {[](const DenoiseOptions& o, const Asked&) { return has_no_step_along(o); }, 0,
+     "<rounded> is 0 along <direction>, so that nothing could move: give a step there, or leave one of them out"},
     {[](const DenoiseOptions&, const Asked& asked) {
          return asked.has("attachment") || asked.has("attachment_radius") || asked.has("attachment_weights");
      },

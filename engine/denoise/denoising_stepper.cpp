@@ -7,7 +7,7 @@
 
 #include "partition/errors.h"
 #include "partition/index_lists.h"
-#include "partition/metrics/vertex_distance.h"
+#include "partition/metrics/edge_measures.h"
 #include "solvers/normals/feature_lines.h"
 
 namespace seamflow {
@@ -31,11 +31,7 @@ std::vector<Index> vertices_of(const std::vector<Edge>& edges)
 /// could not hold.
 Rounding rounding_for(const RemoveNoise& method, const MotionDirection& direction)
 {
-    const bool has_axis =
-        direction.kind == MotionDirection::Kind::Vector && (direction.vector.array() != 0.0).count() == 1;
-    if (direction.kind == MotionDirection::Kind::Any || has_axis)
-        return method.rounding;
-    return {.kind = Rounding::Kind::Never};
+    return direction.is_oblique() ? Rounding{.kind = Rounding::Kind::Never} : method.rounding;
 }
 
 }  // namespace
@@ -96,23 +92,29 @@ std::optional<SmoothedWithinSteps> DenoisingStepper::within_steps(const Points& 
         for (const Index v : on_feature_edges_)
             strengths[v] = 0.0;
     }
+    // Heights that stand for missing data stay, and count in nothing.
+    const std::vector<Spike> spikes = find_spikes(*mesh_, before, exec);
+    const Points filled = spikes.empty() ? before : without_spikes(*mesh_, *topology_, spikes, before);
     const bool is_given = rounding_.kind == Rounding::Kind::Given;
-    CoordinateBounds bounds = is_given ? bounds_of(*mesh_, *topology_, before, rounding_.steps, exec)
-                                       : find_bounds(*mesh_, *topology_, before, exec);
+    CoordinateBounds bounds = is_given ? bounds_of(*mesh_, *topology_, filled, rounding_.steps, exec)
+                                       : bounds_of(*mesh_, *topology_, filled, exec);
     // Vertices that move along one axis keep their other coordinates.
     if (direction_.kind == MotionDirection::Kind::Vector)
         for (int axis = 0; axis < 3; ++axis)
             if (direction_.vector[axis] == 0.0)
                 bounds.widths.col(axis).setZero();
-    if (bounds.kind == CoordinateBounds::Kind::None || bounds.widths.isZero(0.0))
+    if (!is_given && (bounds.kind == CoordinateBounds::Kind::None || bounds.widths.isZero(0.0)))
         return std::nullopt;
     std::optional<SmoothedWithinSteps> smoothed =
-        smooth_within(*mesh_, *topology_, before, std::move(bounds), strengths, exec);
+        smooth_within(*mesh_, *topology_, filled, std::move(bounds), strengths, exec);
     if (!is_given && !smoothed->explains_roughness)
         return std::nullopt;
     if (!is_given)
         smoothed->positions = std::move(smoothed->where_explained);
-    rounded_ = {smoothed->steps, smoothed->fairing.turns, smoothed->fairing.last_motion};
+    for (const Spike& spike : spikes)
+        smoothed->positions.row(spike.vertex) = before.row(spike.vertex);
+    spikes_ = spikes;
+    rounded_ = {smoothed->steps, smoothed->fairing.iterations, smoothed->fairing.last_motion};
     return smoothed;
 }
 
@@ -153,7 +155,7 @@ void DenoisingStepper::save(StepMemory& memory) const
                           noise_->kept.place.x(), noise_->kept.place.y(), noise_->kept.place.z()};
     if (rounded_)
         memory.numbers.insert(memory.numbers.end(), {rounded_->steps.x(), rounded_->steps.y(), rounded_->steps.z(),
-                                                     static_cast<double>(rounded_->turns), rounded_->last_motion});
+                                                     static_cast<double>(rounded_->iterations), rounded_->last_motion});
 }
 
 void DenoisingStepper::restore(const StepMemory& memory)
@@ -170,7 +172,7 @@ void DenoisingStepper::restore(const StepMemory& memory)
         rounded_.emplace();
         for (double& step : rounded_->steps)
             step = reader.number();
-        rounded_->turns = reader.count();
+        rounded_->iterations = reader.count();
         rounded_->last_motion = reader.number();
     }
     reader.require_end();
@@ -198,6 +200,8 @@ void DenoisingStepper::report_to(DenoiseReport& report) const
                           kept.vertices, kept.height, kept.place.x(), kept.place.y(), kept.place.z())}});
     if (rounded_) {
         const Point& steps = rounded_->steps;
+        if (!spikes_.empty())
+            report.remarks.push_back(remark_on_spikes(spikes_));
         report.rounding = rounded_;
         report.choices.push_back(
             {"rounded coordinates",

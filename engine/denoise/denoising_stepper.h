@@ -8,6 +8,7 @@
 #include "engine/denoise/whole_mesh_stepper.h"
 #include "engine/options/motion_options.h"
 #include "engine/tasks/progress.h"
+#include "partition/metrics/edge_measures.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 #include "solvers/denoising/mesh_denoiser.h"
@@ -43,7 +44,7 @@ class DenoisingStepper final : public WholeMeshStepper {
     static std::unique_ptr<const CutOpen> cut_open(const PolygonMesh& mesh, const Topology& topology,
                                                    const std::vector<Edge>& feature_edges, const Executor& exec);
 
-    /// The surface within the bounds of rounded coordinates; null where they are not rounded, or where rounding does
+    /// The surface within the bounds of rounded coordinates; nothing where they are not rounded, or where rounding does
     /// not explain what is rough.
     std::optional<SmoothedWithinSteps> within_steps(const Points& before, const Executor& exec);
 
@@ -65,6 +66,8 @@ class DenoisingStepper final : public WholeMeshStepper {
     std::optional<SurfaceNoise> noise_;
     /// What the first step took for rounded.
     std::optional<RoundingReport> rounded_;
+    /// The spikes that stayed then.
+    std::vector<Spike> spikes_;
 };
 
 }  // namespace seamflow

@@ -105,6 +105,12 @@ struct MotionDirection {
     /// For Kind::Vector: a vector of any length above 0.
     Point vector = Point::Zero();
 
+    /// Whether vertices move along lines that are not parallel to x, y or z.
+    [[nodiscard]] bool is_oblique() const
+    {
+        return kind == Kind::Normal || (kind == Kind::Vector && (vector.array() != 0.0).count() > 1);
+    }
+
     friend bool operator==(const MotionDirection& a, const MotionDirection& b)
     {
         return a.kind == b.kind && a.vector.cwiseEqual(b.vector).all();

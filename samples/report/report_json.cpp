@@ -229,7 +229,7 @@ void add_flow(Json& json, const RunRecord& run, const AllOptions& options, const
     }
     if (report.rounding) {
         json["rounded"] = coordinates_json(report.rounding->steps);
-        json["fairing_turns"] = report.rounding->turns;
+        json["fairing_iterations"] = report.rounding->iterations;
         json["fairing_last_motion"] = json_number(report.rounding->last_motion);
     }
     if (motion.attachment > 0.0)

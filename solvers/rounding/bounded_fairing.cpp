@@ -7,20 +7,20 @@ namespace seamflow {
 
 namespace {
 
-/// The number of turns in a row without a large motion, after which a fairing ends: the motions of an accelerated
+/// The number of iterations in a row without a large motion, after which a fairing ends: the motions of an accelerated
 /// gradient are small where it turns round.
-constexpr int quiet_turns = 5;
+constexpr int quiet_iterations = 5;
 
-/// What one turn has done, over all vertices.
-struct TurnSums {
+/// What one iteration has done, over all vertices.
+struct IterationSums {
     /// The largest motion of a coordinate.
     double motion = 0.0;
-    /// ⟨Y - X', X' - X⟩ with the extrapolated positions Y and the positions X before and X' after the turn: above 0,
-    /// the turn has gone against the gradient.
+    /// ⟨Y - X', X' - X⟩ with the extrapolated positions Y and the positions X before and X' after the iteration: above
+    /// 0, it has gone back, as far as steps are alike at all vertices: a sign to begin anew.
     double against = 0.0;
 };
 
-/// The umbrella Laplacian and its use in turns.
+/// The umbrella Laplacian and its use in iterations.
 class Fairing {
   public:
     Fairing(const IndexLists& neighbours, const Executor& exec)
@@ -45,15 +45,15 @@ class Fairing {
 
     [[nodiscard]] Index size() const { return neighbours_.size(); }
 
-    /// Takes a turn from the extrapolated positions.
-    /// @param extrapolated Y; replaced by those of the next turn. @param positions X; replaced by X'.
-    /// @param momentum the fraction of the motion that is added for the next turn.
-    TurnSums turn(const Boxes& boxes, double momentum, Points& extrapolated, Points& positions)
+    /// Takes an iteration from the extrapolated positions.
+    /// @param extrapolated Y; replaced by those of the next iteration. @param positions X; replaced by X'.
+    /// @param momentum the fraction of the motion that is added for the next iteration.
+    IterationSums iterate(const Boxes& boxes, double momentum, Points& extrapolated, Points& positions)
     {
         for_each(exec_, size(), [&](Index v) { umbrellas_.row(v) = umbrella(extrapolated, v); });
         return reduce(
-            exec_, size(), TurnSums(),
-            [&](TurnSums& sums, Index v) {
+            exec_, size(), IterationSums(),
+            [&](IterationSums& sums, Index v) {
                 const Point from = extrapolated.row(v);
                 const Point before = positions.row(v);
                 const Point after = boxes.nearest(v, from - steps_[usize(v)] * umbrella(umbrellas_, v));
@@ -63,7 +63,7 @@ class Fairing {
                 positions.row(v) = after;
                 extrapolated.row(v) = after + momentum * motion;
             },
-            [](TurnSums& sums, const TurnSums& part) {
+            [](IterationSums& sums, const IterationSums& part) {
                 sums.motion = std::max(sums.motion, part.motion);
                 sums.against += part.against;
             });
@@ -98,11 +98,11 @@ FairingReport fair_in_boxes(const IndexLists& neighbours, const Boxes& boxes, co
     Fairing fairing(neighbours, exec);
     Points extrapolated = positions;
     FairingReport report;
-    // The number of turns since the acceleration began.
+    // The number of iterations since the acceleration began.
     double accelerated = 0.0;
-    for (int quiet = 0; report.turns < stop.most_turns && quiet < quiet_turns; ++report.turns) {
+    for (int quiet = 0; report.iterations < stop.most_iterations && quiet < quiet_iterations; ++report.iterations) {
         // As in Nesterov's method: 0, 1/4, 2/5, 3/6, …
-        const TurnSums sums = fairing.turn(boxes, accelerated / (accelerated + 3.0), extrapolated, positions);
+        const IterationSums sums = fairing.iterate(boxes, accelerated / (accelerated + 3.0), extrapolated, positions);
         accelerated += 1.0;
         if (sums.against > 0.0) {
             accelerated = 0.0;

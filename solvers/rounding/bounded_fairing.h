@@ -24,24 +24,25 @@ struct Boxes {
 
 /// The effort of a fairing.
 struct FairingReport {
-    /// The number of turns that were taken, and the largest motion of a coordinate in the last one, in units of length.
-    int turns = 0;
+    /// The number of iterations that were taken, and the largest motion of a coordinate in the last one, in units of
+    /// length.
+    int iterations = 0;
     double last_motion = 0.0;
 };
 
 /// When a fairing ends.
 struct FairingStop {
-    int most_turns = 400;
-    /// When no coordinate moves further than this in a turn, in units of length, for a few turns.
+    int most_iterations = 0;
+    /// When no coordinate moves further than this in an iteration, in units of length, for a few iterations.
     double motion = 0.0;
 };
 
 /// Finds the fairest surface in the boxes (Lempitsky, Surface extraction from binary volumes with higher-order
 /// smoothness, 2010): the positions X that minimise ‖L X‖², with the umbrella (L X)_v = (Σ_w (x_v - x_w)) / d̄ over the
-/// neighbours w of vertex v, and d̄ the mean number of neighbours. Takes turns of the accelerated projected gradient
-/// (Beck, Teboulle, A fast iterative shrinkage-thresholding algorithm, 2009), which begins anew whenever a turn would
-/// go back (O'Donoghue, Candès, Adaptive restart for accelerated gradient schemes, 2015). The boxes hold exactly after
-/// each turn. Bits do not depend on how loops are run.
+/// neighbours w of vertex v, and d̄ the mean number of neighbours. Takes iterations of the accelerated projected
+/// gradient (Beck, Teboulle, A fast iterative shrinkage-thresholding algorithm, 2009), which begins anew whenever an
+/// iteration would go back (O'Donoghue, Candès, Adaptive restart for accelerated gradient schemes, 2015). The boxes
+/// hold exactly after each iteration. Bits do not depend on how loops are run.
 /// @param neighbours #V: the vertices that share an edge with each vertex.
 /// @param positions #V by 3: in the boxes; replaced.
 FairingReport fair_in_boxes(const IndexLists& neighbours, const Boxes& boxes, const FairingStop& stop,

@@ -59,8 +59,9 @@ std::vector<std::optional<std::uint8_t>> odd_planes(const Points& points, const 
     return odd;
 }
 
-/// The bounds of a surface of marching cubes; nothing if it is none. There all coordinates of a vertex lie on planes of
-/// voxels, but for one, which is in the middle between two. The steps that are found are half of those of the voxels.
+/// The bounds of a surface of marching cubes; nothing if it is none. There all coordinates of a vertex lie on planes
+/// through centres of voxels, but for one, which is in the middle between two. The steps that are found are half of
+/// those of the voxels.
 std::optional<CoordinateBounds>
 bounds_of_marching_cubes(const Points& points, const std::array<CoordinateSteps, 3>& steps, const Executor& exec)
 {
@@ -70,8 +71,10 @@ bounds_of_marching_cubes(const Points& points, const std::array<CoordinateSteps,
         if (bits)
             counts[*bits] += 1.0;
     const double total = std::accumulate(counts.begin(), counts.end(), 0.0);
-    for (unsigned middle = 0; middle < 8; ++middle) {
-        const double n_in_middles = counts[middle ^ 1U] + counts[middle ^ 2U] + counts[middle ^ 4U];
+    // Bits of the planes on which the points of the lattice lie, the centres of voxels. A vertex in the middle of an
+    // edge differs in one bit, that of the axis of the edge.
+    for (unsigned of_lattice = 0; of_lattice < 8; ++of_lattice) {
+        const double n_in_middles = counts[of_lattice ^ 1U] + counts[of_lattice ^ 2U] + counts[of_lattice ^ 4U];
         if (!(n_in_middles >= most_in_middles * total))
             continue;
         CoordinateBounds bounds{.kind = CoordinateBounds::Kind::MarchingCubes};
@@ -83,7 +86,7 @@ bounds_of_marching_cubes(const Points& points, const std::array<CoordinateSteps,
         for_each(exec, static_cast<Index>(points.rows()), [&](Index v) {
             if (const auto& bits = odd[usize(v)])
                 for (unsigned axis = 0; axis < 3; ++axis)
-                    if ((*bits ^ middle) != 1U << axis)
+                    if ((*bits ^ of_lattice) != 1U << axis)
                         bounds.widths(v, axis) = across;
         });
         return bounds;
@@ -99,8 +102,8 @@ bool have_own_places(const Points& points, unsigned first, unsigned second)
     for (Eigen::Index v = 0; v < points.rows(); ++v)
         places.emplace_back(points(v, first), points(v, second));
     std::ranges::sort(places);
-    const auto repeated = std::ranges::unique(places);
-    return static_cast<double>(repeated.size()) <= (1.0 - most_with_own_place) * static_cast<double>(points.rows());
+    const auto n_places = std::unique(places.begin(), places.end()) - places.begin();
+    return static_cast<double>(n_places) >= most_with_own_place * static_cast<double>(points.rows());
 }
 
 /// The number of planes of a coordinate between its smallest and largest value.
@@ -221,7 +224,9 @@ CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, d
 {
     CoordinateBounds found = bounds_of(points, neighbours, length, exec);
     const auto agrees = [&](int axis) {
-        return found.steps[axis] == 0.0 || std::abs(found.steps[axis] - steps[axis]) <= same_step * steps[axis];
+        if (found.steps[axis] == 0.0)
+            return steps[axis] == 0.0 || found.kind == CoordinateBounds::Kind::Heights;
+        return std::abs(found.steps[axis] - steps[axis]) <= same_step * steps[axis];
     };
     if (found.kind != CoordinateBounds::Kind::None && agrees(0) && agrees(1) && agrees(2))
         return found;

@@ -23,7 +23,8 @@ struct CoordinateBounds {
         MarchingCubes,
     };
     Kind kind = Kind::None;
-    /// The step of each coordinate, in units of length: the distance of planes of voxels. 0: it is not rounded.
+    /// The step of each coordinate, in units of length: the distance of planes through centres of voxels. 0: it is not
+    /// rounded.
     Point steps = Point::Zero();
     /// #V by 3: the largest difference of each coordinate from its present value, at least 0.
     Points widths = Points(0, 3);
@@ -39,8 +40,8 @@ bool has_equal_steps(const Point& steps);
 CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, double length,
                            const Executor& exec = run_serially);
 
-/// The bounds for steps that are known: those that are found if they have these steps, otherwise half a step for each
-/// coordinate. @param steps of x, y and z, at least 0.
+/// The bounds for steps that are known: those that are found if they have these steps, or are heights with this step;
+/// otherwise half a step for each coordinate. @param steps of x, y and z, at least 0.
 CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, double length, const Point& steps,
                            const Executor& exec = run_serially);
 

@@ -11,7 +11,6 @@ namespace seamflow {
 KeptVolumes::KeptVolumes(const PolygonMesh& mesh, const Topology& topology, const Components& components,
                          const Points& positions, const Executor& exec)
     : mesh_(mesh)
-    , topology_(topology)
     , normals_(mesh, topology)
     , components_(components)
     , kept_(usize(components_.count()), 0.0)
@@ -20,11 +19,12 @@ KeptVolumes::KeptVolumes(const PolygonMesh& mesh, const Topology& topology, cons
     for_each_component(exec, [&](Index c, const Executor& exec_of_faces) {
         // Where sheets meet, or faces are oriented against each other, there is no inside.
         const auto is_closed = [&](Index f) {
-            const std::span<const Index> twins =
-                std::span<const Index>(topology.twin).subspan(usize(mesh.face_offsets[f]), mesh.face(f).size());
-            return std::ranges::all_of(twins, [](Index twin) { return twin >= 0; });
+            for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h)
+                if (const Index twin = topology.twin[h]; twin < 0 || mesh.face_vertices[twin] == mesh.face_vertices[h])
+                    return false;
+            return true;
         };
-        if (topology.oriented && std::ranges::all_of(components_.nodes[c], is_closed))
+        if (std::ranges::all_of(components_.nodes[c], is_closed))
             kept_[c] = volume(c, positions, exec_of_faces);
     });
     for_each(exec, mesh.n_vertices(), [&](Index v) {
@@ -39,12 +39,15 @@ KeptVolumes::KeptVolumes(const PolygonMesh& mesh, const Topology& topology, cons
 template <class Body>
 void KeptVolumes::for_each_component(const Executor& exec, Body&& body) const
 {
-    // Threads share few components face by face, and many one by one.
-    constexpr Index few = 16;
-    if (components_.count() > few)
-        return for_each(exec, components_.count(), [&](Index c) { body(c, run_serially); });
+    // Threads share large components face by face, and small ones one by one.
+    const auto is_large = [&](Index c) { return components_.nodes[c].size() > usize(block_size); };
     for (Index c = 0; c < components_.count(); ++c)
-        body(c, exec);
+        if (is_large(c))
+            body(c, exec);
+    for_each(exec, components_.count(), [&](Index c) {
+        if (!is_large(c))
+            body(c, run_serially);
+    });
 }
 
 void KeptVolumes::restore(const Boxes& boxes, Points& positions, const Executor& exec) const

@@ -31,7 +31,6 @@ class KeptVolumes {
     [[nodiscard]] double volume(Index component, const Points& positions, const Executor& exec) const;
 
     const PolygonMesh& mesh_;
-    const Topology& topology_;
     VertexNormals normals_;
     const Components& components_;
     /// Per component: the volume that is kept; 0 for components that enclose none.

@@ -18,7 +18,7 @@ struct SmoothedWithinSteps {
     Points positions;
     /// The steps of x, y and z, in units of length; 0: not rounded.
     Point steps = Point::Zero();
-    /// The last motion is in smallest steps.
+    /// The last motion is in smallest steps. Nothing for marching cubes of equal steps.
     FairingReport fairing = {};
     /// Whether rounding explains the roughness of any component: within half a step it bends much less, and only few
     /// vertices would have to go further. On noise, which goes beyond half a step, and on shapes with edges at whole
@@ -33,15 +33,16 @@ struct SmoothedWithinSteps {
 /// the surface rather than smooth it. Then normals are averaged again and again, and vertices fitted to them within
 /// the bounds, in two ways: over all neighbours, and over those on the same side of an edge. Of the two surfaces, the
 /// one that bends less is the result, and the first if both bend alike.
-/// @param topology with twins. Vertices that it fixes do not move. @param positions #V by 3.
+/// @pre bounds.kind is not None. @param topology with twins. Vertices that it fixes do not move. @param positions #V
+/// by 3.
 /// @param strengths #V: the fraction of its bounds that a vertex gets, 0 to 1; empty: 1.
 SmoothedWithinSteps smooth_within(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                                   CoordinateBounds bounds, const std::vector<double>& strengths,
                                   const Executor& exec = run_serially);
 
 /// The bounds of a surface (see bounds_of).
-CoordinateBounds find_bounds(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
-                             const Executor& exec = run_serially);
+CoordinateBounds bounds_of(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                           const Executor& exec = run_serially);
 
 /// The bounds of a surface whose steps are known (see bounds_of).
 CoordinateBounds bounds_of(const PolygonMesh& mesh, const Topology& topology, const Points& positions,

@@ -34,7 +34,7 @@ TEST_CASE("smooth and inspect name rounded coordinates, and a report has them")
           std::string::npos);
     const auto report = w.json("report.json");
     CHECK(report["rounded"] == std::vector<double>{0.0, 0.0, 1.0});
-    CHECK(report["fairing_turns"] > 10);
+    CHECK(report["fairing_iterations"] > 10);
     CHECK(report["fairing_last_motion"] < 0.01);
     REQUIRE(w.run(INSPECT " rounded.obj") == 0);
     CHECK(w.said().find("rounded    coordinates lie in steps of 1 in z") != std::string::npos);

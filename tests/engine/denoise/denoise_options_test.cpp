@@ -71,6 +71,11 @@ TEST_CASE("each option of denoise is refused outside its limits, by its name")
          [](O& o) {
              o.method = SmoothRims{{.time_step = 1.0}}, o.motion.feature_edges = {{0, 1}};
          }},
+        {"rounded is 0 along direction",
+         [](O& o) {
+             o.method = RemoveNoise{.rounding = {Rounding::Kind::Given, Point(1.0, 1.0, 0.0)}};
+             o.motion.direction = {MotionDirection::Kind::Vector, Point(0.0, 0.0, 1.0)};
+         }},
         {"attachment is for flows", [](O& o) { o.motion.attachment = 1.0; }},
         {"attachment is for flows", [](O& o) { o.motion.attachment_weights = {1.0}; }},
     };
