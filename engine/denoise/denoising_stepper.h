@@ -18,7 +18,7 @@ namespace seamflow {
 
 /// Takes steps that remove noise (see RemoveNoise and MeshDenoiser), or, where coordinates are rounded, finds the
 /// smoothest surface within the bounds in the first step (see smooth_within). Vertices on feature edges do not move,
-/// and faces on the two sides of feature edges do not affect each other.
+/// and where noise is removed, faces on the two sides of feature edges do not affect each other.
 class DenoisingStepper final : public WholeMeshStepper {
   public:
     /// @param mesh, topology, progress must outlive the stepper, and so must the twins of the topology.

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "partition/connected_components.h"
+#include "partition/metrics/edge_measures.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/vector_area.h"
 #include "solvers/denoising/face_averages.h"
@@ -355,13 +356,17 @@ std::optional<SmoothedWithinSteps> smooth_rounded(const PolygonMesh& mesh, const
                                                   const Points& positions, const std::vector<double>& strengths,
                                                   const Executor& exec)
 {
-    CoordinateBounds bounds = bounds_of(mesh, topology, positions, exec);
+    const std::vector<Spike> spikes = find_spikes(mesh, positions, exec);
+    const Points filled = spikes.empty() ? positions : without_spikes(mesh, topology, spikes, positions);
+    CoordinateBounds bounds = bounds_of(mesh, topology, filled, exec);
     if (bounds.kind == CoordinateBounds::Kind::None)
         return std::nullopt;
-    SmoothedWithinSteps smoothed = smooth_within(mesh, topology, positions, std::move(bounds), strengths, exec);
+    SmoothedWithinSteps smoothed = smooth_within(mesh, topology, filled, std::move(bounds), strengths, exec);
     if (!smoothed.explains_roughness)
         return std::nullopt;
     smoothed.positions = std::move(smoothed.where_explained);
+    for (const Spike& spike : spikes)
+        smoothed.positions.row(spike.vertex) = positions.row(spike.vertex);
     return smoothed;
 }
 

@@ -48,7 +48,8 @@ CoordinateBounds bounds_of(const PolygonMesh& mesh, const Topology& topology, co
 CoordinateBounds bounds_of(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                            const Point& steps, const Executor& exec = run_serially);
 
-/// Finds the steps of the coordinates, and the smooth surface within half a step.
+/// Finds the steps of the coordinates, and the smooth surface within half a step. Spikes (see find_spikes), such as
+/// heights for missing data, stay.
 /// @param mesh, topology, positions, strengths as for smooth_within.
 /// @returns the surface in which only components move whose roughness the steps explain; nothing if there are none, or
 /// no steps.

@@ -46,6 +46,20 @@ TEST_CASE("smooth and inspect name rounded coordinates, and a report has them")
     CHECK(w.said().find("rounded to") == std::string::npos);
 }
 
+TEST_CASE("inspect finds what smooth finds beside a height for missing data")
+{
+    const Workshop w;
+    PolygonMesh mesh = test::rounded(
+        test::height_grid(50, [](double x, double y) { return 6.0 * std::sin(x / 13.0) * std::cos(y / 17.0); }),
+        Point(0.0, 0.0, 1.0));
+    mesh.vertices(1225, 2) = -9999.0;
+    write_mesh(w.directory / "missing.obj", mesh, {});
+    REQUIRE(w.smooth("missing.obj out.obj") == 0);
+    CHECK(w.said().find("rounded to 1 in z") != std::string::npos);
+    REQUIRE(w.run(INSPECT " missing.obj") == 0);
+    CHECK(w.said().find("coordinates lie in steps of 1 in z") != std::string::npos);
+}
+
 TEST_CASE("--rounded says what is rounded, and never that nothing is")
 {
     const Heights w;
