@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "partition/errors.h"
 #include "partition/index_lists.h"
-#include "partition/metrics/edge_measures.h"
 #include "solvers/normals/feature_lines.h"
 
 namespace seamflow {
@@ -79,56 +79,56 @@ DenoisingStepper::DenoisingStepper(const PolygonMesh& mesh, const Topology& topo
     }
 }
 
-std::optional<SmoothedWithinSteps> DenoisingStepper::within_steps(const Points& before, const Executor& exec)
+RoundedMotion DenoisingStepper::rounded_motion() const
 {
-    if (rounding_.kind == Rounding::Kind::Never || noise_ || mesh_->n_faces() == 0)
-        return std::nullopt;
-    std::vector<double> strengths;
+    RoundedMotion motion;
     // The copies of vertices on the other sides of feature edges come after the vertices.
     if (!strengths_.empty())
-        strengths.assign(strengths_.begin(), strengths_.begin() + mesh_->n_vertices());
+        motion.strengths.assign(strengths_.begin(), strengths_.begin() + mesh_->n_vertices());
     if (!on_feature_edges_.empty()) {
-        strengths.resize(usize(mesh_->n_vertices()), 1.0);
+        motion.strengths.resize(usize(mesh_->n_vertices()), 1.0);
         for (const Index v : on_feature_edges_)
-            strengths[v] = 0.0;
+            motion.strengths[v] = 0.0;
     }
-    // Heights that stand for missing data stay, and count in nothing.
-    const std::vector<Spike> spikes = find_spikes(*mesh_, before, exec);
-    const Points filled = spikes.empty() ? before : without_spikes(*mesh_, *topology_, spikes, before);
-    const bool is_given = rounding_.kind == Rounding::Kind::Given;
-    CoordinateBounds bounds = is_given ? bounds_of(*mesh_, *topology_, filled, rounding_.steps, exec)
-                                       : bounds_of(*mesh_, *topology_, filled, exec);
     // Vertices that move along one axis keep their other coordinates.
     if (direction_.kind == MotionDirection::Kind::Vector)
-        for (int axis = 0; axis < 3; ++axis)
-            if (direction_.vector[axis] == 0.0)
-                bounds.widths.col(axis).setZero();
-    if (!is_given && (bounds.kind == CoordinateBounds::Kind::None || bounds.widths.isZero(0.0)))
-        return std::nullopt;
-    std::optional<SmoothedWithinSteps> smoothed =
-        smooth_within(*mesh_, *topology_, filled, std::move(bounds), strengths, exec);
-    if (!is_given && !smoothed->explains_roughness)
-        return std::nullopt;
-    if (!is_given)
-        smoothed->positions = std::move(smoothed->where_explained);
-    for (const Spike& spike : spikes)
-        smoothed->positions.row(spike.vertex) = before.row(spike.vertex);
-    spikes_ = spikes;
+        motion.axes = (direction_.vector.array() != 0.0).cast<double>();
+    if (rounding_.kind == Rounding::Kind::Given)
+        motion.given_steps = rounding_.steps;
+    return motion;
+}
+
+bool DenoisingStepper::smooth_within_steps(const Points& before, const Executor& exec)
+{
+    // After the first step there is nothing left to smooth within the bounds.
+    if (rounding_.kind == Rounding::Kind::Never || noise_ || mesh_->n_faces() == 0)
+        return false;
+    std::optional<SmoothedWithinSteps> smoothed = smooth_rounded(*mesh_, *topology_, before, rounded_motion(), exec);
+    if (!smoothed)
+        return false;
+    positions_ = std::move(smoothed->positions);
+    noise_.emplace();
+    spikes_ = std::move(smoothed->spikes);
     rounded_ = {smoothed->steps, smoothed->fairing.iterations, smoothed->fairing.last_motion};
-    return smoothed;
+    return true;
 }
 
 void DenoisingStepper::step(const Points& before)
 {
     assert(&before != &positions_);
     const Executor exec = loops_.begin();
-    if (rounded_) {
-        // After the first step there is nothing left to smooth within the bounds.
+    if (rounded_)
         positions_ = before;
-    } else if (std::optional<SmoothedWithinSteps> smoothed = within_steps(before, exec)) {
-        positions_ = std::move(smoothed->positions);
-        noise_.emplace();
-    } else if (open_) {
+    else if (!smooth_within_steps(before, exec))
+        remove_noise(before, exec);
+    loops_.end();
+    if (!positions_.allFinite())
+        throw ComputationError("the result is not finite: scale the mesh to a size nearer to 1");
+}
+
+void DenoisingStepper::remove_noise(const Points& before, const Executor& exec)
+{
+    if (open_) {
         // The mesh that is cut open has additional copies of a vertex on the other sides of feature edges. They do not
         // move. The first copy has the number of the vertex.
         Points of_copies(open_->mesh.n_vertices(), 3);
@@ -141,9 +141,6 @@ void DenoisingStepper::step(const Points& before)
     }
     if (!noise_)
         noise_ = denoiser_.noise();
-    loops_.end();
-    if (!positions_.allFinite())
-        throw ComputationError("the result is not finite: scale the mesh to a size nearer to 1");
 }
 
 void DenoisingStepper::save(StepMemory& memory) const

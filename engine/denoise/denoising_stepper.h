@@ -17,7 +17,7 @@
 namespace seamflow {
 
 /// Takes steps that remove noise (see RemoveNoise and MeshDenoiser), or, where coordinates are rounded, finds the
-/// smoothest surface within the bounds in the first step (see smooth_within). Vertices on feature edges do not move,
+/// smoothest surface within the bounds in the first step (see smooth_rounded). Vertices on feature edges do not move,
 /// and where noise is removed, faces on the two sides of feature edges do not affect each other.
 class DenoisingStepper final : public WholeMeshStepper {
   public:
@@ -44,9 +44,14 @@ class DenoisingStepper final : public WholeMeshStepper {
     static std::unique_ptr<const CutOpen> cut_open(const PolygonMesh& mesh, const Topology& topology,
                                                    const std::vector<Edge>& feature_edges, const Executor& exec);
 
-    /// The surface within the bounds of rounded coordinates; nothing where they are not rounded, or where rounding does
-    /// not explain what is rough.
-    std::optional<SmoothedWithinSteps> within_steps(const Points& before, const Executor& exec);
+    /// How vertices may move within the rounding of their coordinates.
+    [[nodiscard]] RoundedMotion rounded_motion() const;
+
+    /// Takes the first step within the bounds of rounded coordinates. @returns false, with nothing done, where they are
+    /// not rounded, or where rounding does not explain what is rough, and in further steps.
+    bool smooth_within_steps(const Points& before, const Executor& exec);
+
+    void remove_noise(const Points& before, const Executor& exec);
 
     const PolygonMesh* mesh_;
     const Topology* topology_;

@@ -141,6 +141,20 @@ void FaceAverages::average(const AverageWeights& weights, const FaceVectors& vec
     });
 }
 
+void FaceAverages::average(const FaceVectors& vectors, FaceVectors& means, const Executor& exec) const
+{
+    means.resize(n_faces(), 4);
+    for_each(exec, n_faces(), [&](Index f) {
+        FaceVector total = areas_[f] * vectors.row(f);
+        float sum = areas_[f];
+        for (std::size_t k = neighbours_.offsets[f]; k < neighbours_.offsets[f + 1]; ++k) {
+            total += near_[k] * vectors.row(neighbours_.faces[k]);
+            sum += near_[k];
+        }
+        means.row(f) = (sum > 0.0F ? 1.0F / sum : 0.0F) * total;
+    });
+}
+
 void FaceAverages::average(float sigma, const FaceVectors& vectors, FaceVectors& means, const Executor& exec) const
 {
     means.resize(n_faces(), 4);

@@ -65,6 +65,9 @@ class FaceAverages {
     void average(const AverageWeights& weights, const FaceVectors& vectors, FaceVectors& means,
                  const Executor& exec = run_serially) const;
 
+    /// The mean around each face, with the weights without a guide.
+    void average(const FaceVectors& vectors, FaceVectors& means, const Executor& exec = run_serially) const;
+
     /// The bilateral mean, in which the vectors, of length 1 or 0, are their own guide.
     void average(float sigma, const FaceVectors& vectors, FaceVectors& means,
                  const Executor& exec = run_serially) const;

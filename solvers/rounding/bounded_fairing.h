@@ -12,13 +12,20 @@ struct Boxes {
     const Points& middles;
     const Points& widths;
 
-    /// Moves a position to the nearest one in the box of vertex v. A coordinate of width 0 gets the bits of the middle.
+    /// Moves some coordinates to the nearest ones in a box. A coordinate of width 0 gets the bits of the middle.
+    template <int N>
+    [[nodiscard]] static Eigen::Matrix<double, 1, N> nearest(const Eigen::Matrix<double, 1, N>& middle,
+                                                             const Eigen::Matrix<double, 1, N>& width,
+                                                             const Eigen::Matrix<double, 1, N>& coordinates)
+    {
+        const Eigen::Matrix<double, 1, N> clamped = coordinates.cwiseMax(middle - width).cwiseMin(middle + width);
+        return (width.array() > 0.0).select(clamped, middle);
+    }
+
+    /// Moves a position to the nearest one in the box of vertex v.
     [[nodiscard]] Point nearest(Index v, const Point& position) const
     {
-        const Point middle = middles.row(v);
-        const Point width = widths.row(v);
-        const Point clamped = position.cwiseMax(middle - width).cwiseMin(middle + width);
-        return (width.array() > 0.0).select(clamped, middle);
+        return nearest<3>(middles.row(v), widths.row(v), position);
     }
 };
 

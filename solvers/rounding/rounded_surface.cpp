@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -12,28 +11,15 @@
 #include "partition/connected_components.h"
 #include "partition/metrics/edge_measures.h"
 #include "partition/metrics/vertex_distance.h"
-#include "partition/vector_area.h"
-#include "solvers/denoising/face_averages.h"
 #include "solvers/denoising/vertex_averages.h"
-#include "solvers/rounding/kept_volumes.h"
+#include "solvers/rounding/coordinate_bounds.h"
+#include "solvers/rounding/normals_in_boxes.h"
+#include "solvers/rounding/surface_parts.h"
 
 namespace seamflow {
 
 namespace {
 
-/// The chords of unit normals over which normals are averaged: between all neighbours, and on one side of an edge.
-constexpr float all_normals = 1.5F;
-constexpr float same_side = 0.3F;
-/// A group is the last if it has taken less than this fraction of the bending.
-constexpr double least_gain = 0.002;
-/// Normals are averaged and vertices fitted to them this many times, in groups, until a group makes the surface bend no
-/// less; and the rounds of averaging and of fitting each time.
-constexpr int n_groups = 4;
-constexpr int group_of_fits = 4;
-constexpr int averaging_rounds = 3;
-constexpr int fitting_rounds = 10;
-/// The surface that keeps edges is taken if its bending is below this fraction of that of the other one.
-constexpr double bends_less = 0.98;
 /// When rounding explains what is rough: if the fraction of bending that is left and the fraction of vertices near
 /// their bounds, times a weight, add up to at most a limit.
 struct Evidence {
@@ -54,196 +40,20 @@ Evidence evidence_for(CoordinateBounds::Kind kind)
 {
     switch (kind) {
     case CoordinateBounds::Kind::Heights:
-        // [0.02 to 0.81; above 1.3]
-        return {.near = 0.9, .weight = 3.0, .most = 0.9};
+        // [0.02 to 0.9; 0.93 to 3.3, and noise of 0.3 steps on steep ground 0.95]
+        return {.near = 0.9, .weight = 3.2, .most = 0.9};
     case CoordinateBounds::Kind::MarchingCubes:
-        // [0.15 to 0.73, one plate in thick slices 1.2; 0.82 to 1.3]
-        return {.near = 0.98, .weight = 2.0, .most = 0.75};
+        // [0.15 to 0.79, one plate in thick slices 1.27; 0.83 to 1.3]
+        return {.near = 0.98, .weight = 2.0, .most = 0.81};
     default:
-        // [0.12 to 0.445; 0.625 to 1.1, and pyramids of steps 1 by 3 and 3 by 1 0.455 and 0.466]
-        return {.near = 0.98, .weight = 1.0, .most = 0.45};
+        // [0.09 to 0.364; 0.37 to 1.3]
+        return {.near = 0.9, .weight = 0.6, .most = 0.3675};
     }
 }
 
 /// A fairing ends when no coordinate moves by more than this many steps in an iteration.
 constexpr double last_motion = 0.002;
 constexpr int most_iterations = 400;
-
-/// The parts of a surface that are judged one by one: its components, but for small ones, which are one part together.
-class Parts {
-  public:
-    Parts(const PolygonMesh& mesh, const Topology& topology, const Components& components)
-        : mesh_(mesh)
-        , topology_(topology)
-        , components_(components)
-        , part_of_(usize(components.count()), 0)
-    {
-        for (Index c = 0; c < components.count(); ++c)
-            if (components.nodes[c].size() >= small_component)
-                part_of_[c] = count_++;
-    }
-
-    [[nodiscard]] Index count() const { return count_; }
-
-    /// The part of the first face of a vertex; -1 for vertices without faces.
-    [[nodiscard]] Index of_vertex(Index v) const
-    {
-        const auto corners = topology_.corners_at(v);
-        return corners.empty() ? -1 : part_of_[components_.component_of[topology_.face_of[corners.front()]]];
-    }
-
-    /// The total bending of each part: Σ l θ over its edges of two faces, with the length l and the angle θ between the
-    /// normals of the faces. It is the same for a convex body and its rounded copies, however sharp its edges are, and
-    /// grows with every wave: what stairs add to it disappears with them. Edges of vertices without bounds do not
-    /// count.
-    [[nodiscard]] std::vector<double> bending(const Points& widths, const Points& positions, const Executor& exec) const
-    {
-        std::vector<double> of_halfedges(usize(mesh_.n_corners()));
-        for_each(exec, mesh_.n_corners(), [&](Index h) { of_halfedges[h] = bending_at(h, widths, positions); });
-        std::vector<double> of_parts(usize(count_), 0.0);
-        for (Index h = 0; h < mesh_.n_corners(); ++h)
-            of_parts[part_of_[components_.component_of[topology_.face_of[h]]]] += of_halfedges[h];
-        return of_parts;
-    }
-
-  private:
-    static constexpr std::size_t small_component = 200;
-
-    [[nodiscard]] double bending_at(Index h, const Points& widths, const Points& positions) const
-    {
-        const Index twin = topology_.twin[h];
-        if (twin < h)
-            return 0.0;
-        const Index v = mesh_.face_vertices[h];
-        const Index w = mesh_.face_vertices[topology_.next(mesh_, h)];
-        if (widths.row(v).isZero(0.0) || widths.row(w).isZero(0.0))
-            return 0.0;
-        const Point normal = vector_area(mesh_.face(topology_.face_of[h]), positions);
-        Point other = vector_area(mesh_.face(topology_.face_of[twin]), positions);
-        // Half-edges in the same direction belong to faces with opposite orientations.
-        if (mesh_.face_vertices[twin] == v)
-            other = -other;
-        const double sine = Eigen::RowVector3d(normal.cross(other)).norm();
-        return (positions.row(w) - positions.row(v)).norm() * std::atan2(sine, normal.dot(other));
-    }
-
-    const PolygonMesh& mesh_;
-    const Topology& topology_;
-    const Components& components_;
-    /// Per component. Part 0 has the small ones.
-    std::vector<Index> part_of_;
-    Index count_ = 1;
-};
-
-double total(const std::vector<double>& of_parts)
-{
-    return std::accumulate(of_parts.begin(), of_parts.end(), 0.0);
-}
-
-/// Whether a part with edges that are kept bends hardly less than it does without.
-bool bends_no_less(double with_edges, double without)
-{
-    return !(with_edges < bends_less * without);
-}
-
-/// Smooths the normals of a surface within bounds.
-class NormalsInBoxes {
-  public:
-    NormalsInBoxes(const PolygonMesh& mesh, const Topology& topology, const Components& components, const Parts& parts,
-                   const Boxes& boxes, const Executor& exec)
-        : mesh_(mesh)
-        , topology_(topology)
-        , parts_(parts)
-        , boxes_(boxes)
-        , exec_(exec)
-        , averages_(mesh, topology, exec)
-        , volumes_(mesh, topology, components, boxes.middles, exec)
-    {
-    }
-
-    /// Averages normals over chords of `sigma` and fits the vertices to them, several times.
-    /// @param of_other the bending of each part of another surface: there are no further groups if after the first one
-    /// no part bends clearly less. Empty: no other surface.
-    /// @returns the bending of each part of the result.
-    std::vector<double> smooth(float sigma, Points& positions, const std::vector<double>& of_other = {})
-    {
-        std::vector<double> least = bending(positions);
-        for (int group = 0; group < n_groups; ++group) {
-            Points further = positions;
-            for (int i = 0; i < group_of_fits; ++i)
-                smooth_once(sigma, further);
-            std::vector<double> of_further = bending(further);
-            // The first group may bend a surface more that is to become one with edges.
-            const double gain = total(least) - total(of_further);
-            if (group > 0 && !(gain > 0.0))
-                break;
-            least = std::move(of_further);
-            positions = std::move(further);
-            if (group > 0 && gain < least_gain * total(least))
-                break;
-            if (group == 0 && !of_other.empty() && std::ranges::equal(least, of_other, bends_no_less))
-                break;
-        }
-        return least;
-    }
-
-    [[nodiscard]] std::vector<double> bending(const Points& positions) const
-    {
-        return parts_.bending(boxes_.widths, positions, exec_);
-    }
-
-  private:
-    void smooth_once(float sigma, Points& positions)
-    {
-        averages_.measure(positions, exec_);
-        averages_.measure_normals(positions, normals_, exec_);
-        for (int round = 0; round < averaging_rounds; ++round) {
-            averages_.average(sigma, normals_, means_, exec_);
-            normalise(means_, exec_);
-            normals_.swap(means_);
-        }
-        fit(positions);
-        volumes_.restore(boxes_, positions, exec_);
-    }
-
-    /// Moves each vertex, again and again, by the mean of n ⟨n, c - x⟩ over its faces with averaged normals n and
-    /// centroids c, as far as its box allows (Sun et al., Fast and effective feature-preserving mesh denoising, 2007).
-    void fit(Points& positions) const
-    {
-        Points centroids(mesh_.n_faces(), 3);
-        for (int round = 0; round < fitting_rounds; ++round) {
-            for_each(exec_, mesh_.n_faces(), [&](Index f) {
-                Point total = Point::Zero();
-                for (const Index v : mesh_.face(f))
-                    total += positions.row(v);
-                centroids.row(f) = total / static_cast<double>(mesh_.face(f).size());
-            });
-            for_each(exec_, mesh_.n_vertices(), [&](Index v) {
-                const Point position = positions.row(v);
-                Point total = Point::Zero();
-                const auto corners = topology_.corners_at(v);
-                for (const Index corner : corners) {
-                    const Index f = topology_.face_of[corner];
-                    const Point normal = normals_.row(f).head<3>().cast<double>();
-                    total += normal * normal.dot(centroids.row(f) - position);
-                }
-                if (!corners.empty())
-                    positions.row(v) = boxes_.nearest(v, position + total / static_cast<double>(corners.size()));
-            });
-        }
-    }
-
-    const PolygonMesh& mesh_;
-    const Topology& topology_;
-    const Parts& parts_;
-    const Boxes& boxes_;
-    const Executor& exec_;
-    FaceAverages averages_;
-    KeptVolumes volumes_;
-    /// #F: the averaged normals, and memory for averages.
-    FaceVectors normals_;
-    FaceVectors means_;
-};
 
 /// Whether a vertex has moved by at least the fraction `near` of its width, in a direction in which bounds are widest,
 /// in steps; nothing for vertices with less than the whole bounds.
@@ -261,7 +71,7 @@ std::optional<bool> is_near_bound(const Boxes& boxes, const Point& steps, double
 
 /// Per part: the fraction of the vertices with whole bounds that are near one; 1 without any: nothing shows that they
 /// suffice.
-std::vector<double> fractions_near_bounds(const Parts& parts, const Boxes& boxes, const CoordinateBounds& bounds,
+std::vector<double> fractions_near_bounds(const SurfaceParts& parts, const Boxes& boxes, const CoordinateBounds& bounds,
                                           const Points& positions)
 {
     std::vector<double> near(usize(parts.count()), 0.0);
@@ -279,7 +89,7 @@ std::vector<double> fractions_near_bounds(const Parts& parts, const Boxes& boxes
 }
 
 /// Takes the positions of the vertices of some parts.
-void take(const Parts& parts, const std::vector<std::uint8_t>& taken, const Points& from, Points& positions,
+void take(const SurfaceParts& parts, const std::vector<std::uint8_t>& taken, const Points& from, Points& positions,
           const Executor& exec)
 {
     for_each(exec, static_cast<Index>(positions.rows()), [&](Index v) {
@@ -293,81 +103,103 @@ bool begins_with_fairing(const CoordinateBounds& bounds)
     return bounds.kind != CoordinateBounds::Kind::MarchingCubes || !has_equal_steps(bounds.steps);
 }
 
+/// The bounds of vertices that may move.
+/// @param neighbours #V: the vertices that share an edge with each vertex.
+CoordinateBounds bounds_for(const PolygonMesh& mesh, const Topology& topology, const IndexLists& neighbours,
+                            const Points& positions, const RoundedMotion& motion, const Executor& exec)
+{
+    const double length = mean_edge_length(mesh, positions, exec);
+    CoordinateBounds bounds = motion.given_steps ? bounds_of(positions, neighbours, length, *motion.given_steps, exec)
+                                                 : bounds_of(positions, neighbours, length, exec);
+    if (bounds.kind == CoordinateBounds::Kind::None)
+        return bounds;
+    for_each(exec, mesh.n_vertices(), [&](Index v) {
+        const double strength = motion.strengths.empty() ? 1.0 : motion.strengths[v];
+        bounds.widths.row(v) =
+            topology.moves(v) ? Point(strength * bounds.widths.row(v).cwiseProduct(motion.axes)) : Point::Zero();
+    });
+    return bounds;
+}
+
+/// The surface within bounds that bends less of the two, for each part.
+class SmootherSurface {
+  public:
+    SmootherSurface(const PolygonMesh& mesh, const Topology& topology, const Boxes& boxes, const Executor& exec)
+        : boxes_(boxes)
+        , exec_(exec)
+        , components_(face_components(mesh, topology))
+        , parts_(mesh, topology, components_)
+        , normals_(mesh, topology, components_, parts_, boxes_, exec)
+    {
+    }
+
+    /// Smooths normals. @param positions #V by 3: in the boxes; replaced.
+    void smooth(Points& positions)
+    {
+        Points with_edges = positions;
+        bending_ = normals_.smooth(NormalNeighbours::All, positions);
+        const std::vector<double> of_edges = normals_.smooth(NormalNeighbours::SameSideOfEdge, with_edges, bending_);
+        std::vector<std::uint8_t> taken(bending_.size(), 0);
+        for (std::size_t part = 0; part < bending_.size(); ++part)
+            if (!NormalsInBoxes::bends_no_less(of_edges[part], bending_[part])) {
+                taken[part] = 1;
+                bending_[part] = of_edges[part];
+            }
+        take(parts_, taken, with_edges, positions, exec_);
+    }
+
+    /// Puts parts back whose roughness the rounding does not explain. @param positions the result of `smooth`.
+    /// @returns whether it explains that of any.
+    [[nodiscard]] bool keep_explained(const CoordinateBounds& bounds, Points& positions) const
+    {
+        const std::vector<double> before = normals_.bending(boxes_.middles);
+        const std::vector<double> near = fractions_near_bounds(parts_, boxes_, bounds, positions);
+        const Evidence evidence = evidence_for(bounds.kind);
+        std::vector<std::uint8_t> is_unexplained(bending_.size(), 0);
+        for (std::size_t part = 0; part < bending_.size(); ++part)
+            if (!(before[part] > 0.0 && bending_[part] / before[part] + evidence.of(near[part]) <= evidence.most))
+                is_unexplained[part] = 1;
+        take(parts_, is_unexplained, boxes_.middles, positions, exec_);
+        return std::ranges::find(is_unexplained, 0) != is_unexplained.end();
+    }
+
+  private:
+    Boxes boxes_;
+    const Executor& exec_;
+    Components components_;
+    SurfaceParts parts_;
+    NormalsInBoxes normals_;
+    /// The bending of each part of the smoothed surface.
+    std::vector<double> bending_;
+};
+
 }  // namespace
 
-SmoothedWithinSteps smooth_within(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
-                                  CoordinateBounds bounds, const std::vector<double>& strengths, const Executor& exec)
-{
-    for_each(exec, mesh.n_vertices(), [&](Index v) {
-        const double strength = strengths.empty() ? 1.0 : strengths[v];
-        bounds.widths.row(v) *= topology.moves(v) ? strength : 0.0;
-    });
-    const Boxes boxes{positions, bounds.widths};
-    SmoothedWithinSteps result{.positions = positions, .steps = bounds.steps};
-    const double smallest_step = (bounds.steps.array() > 0.0).select(bounds.steps, bounds.steps.maxCoeff()).minCoeff();
-    if (begins_with_fairing(bounds))
-        result.fairing = fair_in_boxes(VertexAverages(mesh, topology, exec).neighbours(), boxes,
-                                       {most_iterations, last_motion * smallest_step}, result.positions, exec);
-    result.fairing.last_motion /= smallest_step;
-    const Components components = face_components(mesh, topology);
-    const Parts parts(mesh, topology, components);
-    NormalsInBoxes normals(mesh, topology, components, parts, boxes, exec);
-    Points with_edges = result.positions;
-    std::vector<double> bending = normals.smooth(all_normals, result.positions);
-    const std::vector<double> bending_with_edges = normals.smooth(same_side, with_edges, bending);
-    std::vector<std::uint8_t> taken(bending.size(), 0);
-    for (std::size_t part = 0; part < bending.size(); ++part)
-        if (!bends_no_less(bending_with_edges[part], bending[part])) {
-            taken[part] = 1;
-            bending[part] = bending_with_edges[part];
-        }
-    take(parts, taken, with_edges, result.positions, exec);
-
-    const std::vector<double> before = normals.bending(positions);
-    const std::vector<double> near = fractions_near_bounds(parts, boxes, bounds, result.positions);
-    const Evidence evidence = evidence_for(bounds.kind);
-    std::vector<std::uint8_t> is_unexplained(bending.size(), 0);
-    for (std::size_t part = 0; part < bending.size(); ++part) {
-        const bool explains =
-            before[part] > 0.0 && bending[part] / before[part] + evidence.of(near[part]) <= evidence.most;
-        is_unexplained[part] = explains ? 0 : 1;
-        result.explains_roughness = result.explains_roughness || explains;
-    }
-    result.where_explained = result.positions;
-    take(parts, is_unexplained, positions, result.where_explained, exec);
-    return result;
-}
-
-CoordinateBounds bounds_of(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
-                           const Executor& exec)
-{
-    return bounds_of(positions, VertexAverages(mesh, topology, exec).neighbours(),
-                     mean_edge_length(mesh, positions, exec), exec);
-}
-
-CoordinateBounds bounds_of(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
-                           const Point& steps, const Executor& exec)
-{
-    return bounds_of(positions, VertexAverages(mesh, topology, exec).neighbours(),
-                     mean_edge_length(mesh, positions, exec), steps, exec);
-}
-
 std::optional<SmoothedWithinSteps> smooth_rounded(const PolygonMesh& mesh, const Topology& topology,
-                                                  const Points& positions, const std::vector<double>& strengths,
+                                                  const Points& positions, const RoundedMotion& motion,
                                                   const Executor& exec)
 {
-    const std::vector<Spike> spikes = find_spikes(mesh, positions, exec);
-    const Points filled = spikes.empty() ? positions : without_spikes(mesh, topology, spikes, positions);
-    CoordinateBounds bounds = bounds_of(mesh, topology, filled, exec);
-    if (bounds.kind == CoordinateBounds::Kind::None)
+    SmoothedWithinSteps result{.spikes = find_spikes(mesh, positions, exec)};
+    const Points filled = result.spikes.empty() ? positions : without_spikes(mesh, topology, result.spikes, positions);
+    const IndexLists neighbours = VertexAverages(mesh, topology, exec).neighbours();
+    const CoordinateBounds bounds = bounds_for(mesh, topology, neighbours, filled, motion, exec);
+    if (bounds.kind == CoordinateBounds::Kind::None || (!motion.given_steps && bounds.widths.isZero(0.0)))
         return std::nullopt;
-    SmoothedWithinSteps smoothed = smooth_within(mesh, topology, filled, std::move(bounds), strengths, exec);
-    if (!smoothed.explains_roughness)
+    const Boxes boxes{filled, bounds.widths};
+    result.steps = bounds.steps;
+    result.positions = filled;
+    const double smallest_step = (bounds.steps.array() > 0.0).select(bounds.steps, bounds.steps.maxCoeff()).minCoeff();
+    if (begins_with_fairing(bounds))
+        result.fairing =
+            fair_in_boxes(neighbours, boxes, {most_iterations, last_motion * smallest_step}, result.positions, exec);
+    result.fairing.last_motion /= smallest_step;
+    SmootherSurface smoother(mesh, topology, boxes, exec);
+    smoother.smooth(result.positions);
+    if (!motion.given_steps && !smoother.keep_explained(bounds, result.positions))
         return std::nullopt;
-    smoothed.positions = std::move(smoothed.where_explained);
-    for (const Spike& spike : spikes)
-        smoothed.positions.row(spike.vertex) = positions.row(spike.vertex);
-    return smoothed;
+    for (const Spike& spike : result.spikes)
+        result.positions.row(spike.vertex) = positions.row(spike.vertex);
+    return result;
 }
 
 std::string steps_in_words(const Point& steps)

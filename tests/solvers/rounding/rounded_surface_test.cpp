@@ -37,7 +37,7 @@ Topology free_topology(const PolygonMesh& mesh)
 std::optional<SmoothedWithinSteps> smoothed(const PolygonMesh& mesh, const std::vector<double>& strengths = {},
                                             const Executor& exec = run_in_parallel)
 {
-    return smooth_rounded(mesh, free_topology(mesh), mesh.vertices, strengths, exec);
+    return smooth_rounded(mesh, free_topology(mesh), mesh.vertices, {.strengths = strengths}, exec);
 }
 
 /// The mean angle between the faces and the sphere around the origin, in degrees.

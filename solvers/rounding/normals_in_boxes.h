@@ -1,0 +1,66 @@
+#pragma once
+
+#include <vector>
+
+#include "partition/connected_components.h"
+#include "partition/executor.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+#include "solvers/denoising/face_averages.h"
+#include "solvers/rounding/bounded_fairing.h"
+#include "solvers/rounding/kept_volumes.h"
+#include "solvers/rounding/surface_parts.h"
+
+namespace seamflow {
+
+/// The neighbours over which normals are averaged.
+enum class NormalNeighbours {
+    /// All of them: the surface becomes smooth everywhere.
+    All,
+    /// Those with nearly the same normals: edges are kept.
+    SameSideOfEdge,
+};
+
+/// Smooths the normals of a surface within boxes: averages normals, fits the vertices to them as far as the boxes
+/// allow, and restores volumes, again and again.
+class NormalsInBoxes {
+  public:
+    /// @param mesh its vertices are not used. @param components those of its faces. @param parts of the same mesh. All
+    /// must outlive the object.
+    NormalsInBoxes(const PolygonMesh& mesh, const Topology& topology, const Components& components,
+                   const SurfaceParts& parts, const Boxes& boxes, const Executor& exec);
+
+    /// Smooths in groups of rounds, until a group makes the surface bend hardly less.
+    /// @param positions #V by 3: in the boxes; replaced.
+    /// @param to_beat the bending of each part of another surface: there are no further groups if after the first one
+    /// no part bends clearly less than there. Empty: no other surface.
+    /// @returns the bending of each part of the result (see SurfaceParts::bending).
+    std::vector<double> smooth(NormalNeighbours neighbours, Points& positions, const std::vector<double>& to_beat = {});
+
+    /// The bending of each part at other positions, #V by 3.
+    [[nodiscard]] std::vector<double> bending(const Points& positions) const
+    {
+        return parts_.bending(boxes_.widths, positions, exec_);
+    }
+
+    /// Whether a part with edges that are kept bends hardly less than it does without.
+    [[nodiscard]] static bool bends_no_less(double with_edges, double without);
+
+  private:
+    void smooth_once(NormalNeighbours neighbours, Points& positions);
+    void average_normals(NormalNeighbours neighbours);
+    void fit(Points& positions) const;
+
+    const PolygonMesh& mesh_;
+    const Topology& topology_;
+    const SurfaceParts& parts_;
+    const Boxes& boxes_;
+    const Executor& exec_;
+    FaceAverages averages_;
+    KeptVolumes volumes_;
+    /// #F: the averaged normals, and memory for averages.
+    FaceVectors normals_;
+    FaceVectors means_;
+};
+
+}  // namespace seamflow
