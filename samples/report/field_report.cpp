@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "partition/executor.h"
-#include "partition/io/input_position.h"
+#include "partition/text.h"
 #include "samples/report/report_json.h"
 #include "samples/report/report_text.h"
 

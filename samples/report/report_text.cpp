@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "engine/measure/smoothed_radius.h"
-#include "partition/io/input_position.h"
+#include "partition/text.h"
 #include "samples/process/option_words.h"
 #include "samples/report/flow_names.h"
 #include "samples/report/mesh_scale.h"

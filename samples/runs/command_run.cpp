@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "partition/io/input_file.h"
-#include "partition/io/input_position.h"
+#include "partition/text.h"
 #include "samples/process/exit_status.h"
 
 namespace seamflow {

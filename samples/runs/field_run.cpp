@@ -27,6 +27,7 @@
 #include "partition/io/input_file.h"
 #include "partition/io/input_position.h"
 #include "partition/metrics/bounding_box.h"
+#include "partition/text.h"
 #include "samples/files/about_file.h"
 #include "samples/files/mesh_input.h"
 #include "samples/files/mesh_results.h"

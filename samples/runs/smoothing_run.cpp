@@ -13,7 +13,6 @@
 #include "engine/setup/resolved_options.h"
 #include "partition/errors.h"
 #include "partition/io/input_file.h"
-#include "partition/io/input_position.h"
 #include "partition/metrics/bounding_box.h"
 #include "partition/metrics/edge_measures.h"
 

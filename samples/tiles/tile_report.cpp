@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/ranks/peak_memory.h"
-#include "partition/io/input_position.h"
+#include "partition/text.h"
 #include "samples/process/exit_status.h"
 #include "samples/process/option_words.h"
 #include "samples/report/report_text.h"
