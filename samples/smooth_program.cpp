@@ -60,7 +60,7 @@ namespace {
 ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
 {
     Interruption interruption(command.program);
-    std::ostream& out = message_stream(command);
+    std::ostream& out = *command.messages;
     const Stopwatch whole;
     Workers workers(command.options.resources.threads);
     const Executor exec = workers.exec();

@@ -178,7 +178,7 @@ std::vector<Index> read_sources(const SmoothCommand& command, Index n_vertices)
 {
     std::vector<Index> from = read_vertex_set(command.fields.from, n_vertices, command.fix_property);
     if (from.empty())
-        throw InputError(command.fields.from.string() + ": names no vertex: write one number at least");
+        throw InputError(command.fields.from.path().string() + ": names no vertex: write one number at least");
     return from;
 }
 
@@ -227,7 +227,7 @@ void write_result(const MeshOutput& output, const MeshFile& file, FileFields& fi
 ExitStatus run_fields(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
 {
     Interruption interruption(command.program);
-    std::ostream& out = message_stream(command);
+    std::ostream& out = *command.messages;
     const Stopwatch whole;
     Workers workers(command.options.resources.threads);
     const Executor exec = workers.exec();
