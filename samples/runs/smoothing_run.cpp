@@ -23,7 +23,7 @@ namespace {
 /// The amount that the preset chooses.
 void choose_amount(SmoothRequest& request, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
 {
-    const PresetTraits& preset = preset_of(request.preset);
+    const PresetTraits& preset = *request.preset;
     if (request.options.denoise) {
         request.options.motion.limits = DenoiseOptions::default_motion().limits;
         return;
@@ -49,7 +49,7 @@ void choose_amount(SmoothRequest& request, const PolygonMesh& mesh, const Execut
 RunRecord begin_record(const SmoothRequest& request)
 {
     return {.arguments = request.arguments,
-            .preset = request.preset,
+            .preset = std::string(request.preset != nullptr ? request.preset->name : ""),
             .remarks = {request.remarks.begin(), request.remarks.end()}};
 }
 
