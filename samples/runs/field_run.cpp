@@ -270,6 +270,8 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
         fields.decimals = {of_distances};
     write_result(output, file, fields, left_out, exec, run, summary);
     run.ranks = summary.report.flow.ranks;
+    run.choices_in_words = in_words_of_program(summary.report.flow.choices);
+    run.remarks_in_words = in_words_of_program(summary.report.remarks);
     run.seconds = whole.seconds();
     const std::string report = field_report_json(run, command.options, summary);
     if (!command.report.empty())

@@ -29,11 +29,9 @@ std::optional<PageFlow> begin_page(const SmoothCommand& command, const MeshFile&
     return page;
 }
 
-void write_reports(const SmoothCommand& command, const RunRecord& run, SmoothReport& report,
+void write_reports(const SmoothCommand& command, const RunRecord& run, const SmoothReport& report,
                    std::optional<PageFlow>& page)
 {
-    if (page && !page->remark().empty())
-        report.remarks.push_back(page->remark());
     std::string json;
     if (page || !command.report.empty() || !command.csv.empty())
         json = smooth_report_json(run, command.options, report);

@@ -21,9 +21,9 @@ std::optional<PageFlow> begin_page(const SmoothCommand& command, const MeshFile&
                                    const std::vector<Index>& left_out, Workers& workers);
 
 /// Writes the reports.
-/// @param report gets a remark if the page does not show all steps.
+/// @param run complete (see complete_record).
 /// @throws OutputError
-void write_reports(const SmoothCommand& command, const RunRecord& run, SmoothReport& report,
+void write_reports(const SmoothCommand& command, const RunRecord& run, const SmoothReport& report,
                    std::optional<PageFlow>& page);
 
 }  // namespace seamflow
