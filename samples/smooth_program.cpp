@@ -43,6 +43,7 @@
 #include "samples/report/report_json.h"
 #include "samples/report/report_text.h"
 #include "samples/report/surface_remarks.h"
+#include "samples/runs/begin_page.h"
 #include "samples/runs/command_run.h"
 #include "samples/runs/field_run.h"
 #include "samples/runs/long_run.h"
