@@ -39,9 +39,11 @@
 #include "samples/files/output_files.h"
 #include "samples/options/smooth_surface.h"
 #include "samples/process/interruption.h"
+#include "samples/report/mesh_scale.h"
 #include "samples/report/report_json.h"
 #include "samples/report/report_text.h"
 #include "samples/report/surface_remarks.h"
+#include "samples/runs/begin_page.h"
 #include "samples/runs/command_run.h"
 #include "samples/runs/field_run.h"
 #include "samples/runs/long_run.h"
@@ -60,18 +62,17 @@ namespace {
 ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
 {
     Interruption interruption(command.program);
-    std::ostream& out = message_stream(command);
+    std::ostream& out = *command.messages;
     const Stopwatch whole;
     Workers workers(command.options.resources.threads);
     const Executor exec = workers.exec();
     FaultLog left_out{.of_faces_alone = true};
     MeshFile file = read_surface(command.input, command.options.motion.strict ? nullptr : &left_out, exec);
     read_named_files(command, file.mesh, left_out.faces_left_out);
+    run.scale = measure_scale(file.mesh, exec);
     about_file(command.input, [&] { resolve_amount(command, file.mesh, exec, run); });
     run.read_seconds = whole.seconds();
-    print_input(out, run, file.mesh.n_vertices(), file.mesh.n_faces());
-    print_preset(out, run, command.chosen);
-    print_amount(out, run.scale, command.options);
+    print_start(out, run, file.mesh.n_vertices(), file.mesh.n_faces(), command.options);
     const MeshOutput output(command.output, file, command.options.motion.weld);
     output.require_storable();
     std::optional<MeshOutput> steps;
@@ -129,7 +130,9 @@ ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
         remark_on_loss(command.options, run.surface, report.remarks);
         remark_on_folds(command.options, run.surface, report.remarks);
     }
-    run.ranks = report.ranks;
+    if (page && !page->remark().empty())
+        report.remarks.push_back(page->remark());
+    complete_record(run, report);
     run.seconds = whole.seconds();
     write_reports(command, run, report, page);
     if (command.verbose)

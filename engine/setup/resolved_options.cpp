@@ -5,7 +5,6 @@
 
 #include "engine/measure/length_scale.h"
 #include "engine/motion/resolved_motion.h"
-#include "partition/metrics/vertex_distance.h"
 
 namespace seamflow {
 
@@ -16,7 +15,8 @@ FlowOptions resolved(FlowOptions options, const PolygonMesh& mesh, LengthScale& 
     options.time_step = time_step_of(options, scale);
     options.time_step_edges.reset();
     options.radius.reset();
-    options.uniform_edge = uniform_edge_of(options, mesh);
+    if (options.laplacian == Laplacian::Uniform && !(options.uniform_edge > 0.0))
+        options.uniform_edge = std::isnormal(scale.mean_edge()) ? scale.mean_edge() : 1.0;
     return options;
 }
 
@@ -31,16 +31,6 @@ double time_step_of(const FlowOptions& options, LengthScale& scale)
 {
     return time_step_of({options.time_step, options.time_step_edges, options.radius}, options.steps, scale,
                         filter_of(options));
-}
-
-double uniform_edge_of(const FlowOptions& options, const PolygonMesh& mesh)
-{
-    if (options.laplacian != Laplacian::Uniform || options.uniform_edge > 0.0)
-        return options.uniform_edge;
-    const double edge = mean_edge_length(mesh, mesh.vertices);
-    if (!std::isfinite(edge) && mesh.n_faces() > 0)
-        require_valid(mesh);
-    return std::isnormal(edge) ? edge : 1.0;
 }
 
 }  // namespace seamflow

@@ -11,8 +11,8 @@
 namespace seamflow {
 
 /// Options that hold for one mesh: dt in place of a radius or of squared edge lengths, lengths in units of length, w in
-/// place of a radius of attachment, strengths that are feathered, the edge length of Laplacian::Uniform. Options that
-/// are resolved stay as they are.
+/// place of a radius of attachment, strengths that are feathered; for Laplacian::Uniform the mean edge length, or 1 if
+/// no edge has a length, in place of FlowOptions::uniform_edge of 0. Options that are resolved stay as they are.
 /// @param scale of the mesh.
 /// @param remarks gets sentences for the user.
 /// @throws InputError for a mesh that is not valid, or that has no size to measure by;
@@ -26,10 +26,5 @@ FlowOptions resolved(FlowOptions options, const PolygonMesh& mesh);
 /// FlowOptions::time_step, or the time step in its place, in length².
 /// @throws as resolved.
 double time_step_of(const FlowOptions& options, LengthScale& scale);
-
-/// FlowOptions::uniform_edge; if Laplacian::Uniform needs it and it is 0, the mean edge length; 1 if no edge has a
-/// length.
-/// @throws InputError for a mesh that is not valid.
-double uniform_edge_of(const FlowOptions& options, const PolygonMesh& mesh);
 
 }  // namespace seamflow

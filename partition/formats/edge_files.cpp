@@ -101,20 +101,21 @@ class EdgeReader {
 
 }  // namespace
 
-std::vector<Edge> read_edges(const std::filesystem::path& path, Index n_vertices)
+std::vector<Edge> read_edges(const DataFile& file, Index n_vertices)
 {
     EdgeReader reader(n_vertices);
-    const std::optional<FileFormat> format = format_of(path);
+    const std::filesystem::path& path = file.path();
+    const std::optional<FileFormat> format = file.format();
     if (format && format != FileFormat::Obj && format != FileFormat::Ply)
         throw InputError(path.string() + ": the format has no edges of its own; use OBJ (lines l), PLY (element edge), "
                                          "or a text file with two vertex numbers per line");
-    const InputFile file{OpenFile(path)};
+    const InputFile input{OpenFile(path)};
     if (!format)
-        reader.read_pairs({path, file.content()});
+        reader.read_pairs({path, input.content()});
     else if (format == FileFormat::Ply)
-        reader.read_elements(path, file.content());
+        reader.read_elements(path, input.content());
     else
-        scan_obj(TextScanner(path, file.content(), obj_syntax), reader);
+        scan_obj(TextScanner(path, input.content(), obj_syntax), reader);
     std::vector<Edge> edges = reader.take();
     if (edges.empty() && format)
         throw InputError(path.string() + ": the file has no edges of its own: " +

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
+#include "partition/formats/data_file.h"
 #include "partition/index.h"
 
 namespace seamflow {
@@ -15,6 +15,6 @@ namespace seamflow {
 /// face.
 /// @throws InputError naming file and line or element, and a remedy; also for an .obj or .ply file without edges, and
 /// for a file of another mesh format, which cannot have edges.
-std::vector<Edge> read_edges(const std::filesystem::path& path, Index n_vertices);
+std::vector<Edge> read_edges(const DataFile& file, Index n_vertices);
 
 }  // namespace seamflow

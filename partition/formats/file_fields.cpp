@@ -11,6 +11,7 @@
 
 #include "partition/errors.h"
 #include "partition/io/input_position.h"
+#include "partition/text.h"
 
 namespace seamflow {
 

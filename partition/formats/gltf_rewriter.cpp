@@ -21,6 +21,7 @@
 #include "partition/formats/splicing.h"
 #include "partition/formats/writing_checks.h"
 #include "partition/io/byte_order.h"
+#include "partition/text.h"
 
 namespace seamflow {
 

@@ -157,14 +157,14 @@ std::vector<Index> read_list(const std::filesystem::path& path, Index n_vertices
 /// Reads a property of the vertices of a .ply file.
 /// @param complaint gives the fault of a number and a remedy, to follow the name of the property; empty: none.
 /// @returns n_vertices numbers; nothing for any other file.
-std::optional<std::vector<double>> read_column(const std::filesystem::path& path, Index n_vertices,
-                                               std::string_view property, std::string (*complaint)(double number))
+std::optional<std::vector<double>> read_column(const DataFile& file, Index n_vertices, std::string_view property,
+                                               std::string (*complaint)(double number))
 {
-    if (format_of(path) != FileFormat::Ply)
+    if (file.format() != FileFormat::Ply)
         return {};
     const std::string name = in_quotes(property);
-    const InputFile file{OpenFile(path)};
-    const PlyData data = ply_data_of(path, file.content(), PlyUse::OtherData);
+    const InputFile input{OpenFile(file.path())};
+    const PlyData data = ply_data_of(file.path(), input.content(), PlyUse::OtherData);
     const PlyElement* const vertices = data.header.element("vertex");
     if (vertices == nullptr)
         data.after_header.fail("the file has no vertices; use one with the mesh's vertices and their property {}",
@@ -194,28 +194,27 @@ std::vector<Index> read_labels(const std::filesystem::path& path, Index n_faces)
     return read_each<Index>(path, n_faces, label_words);
 }
 
-std::vector<Index> read_vertex_set(const std::filesystem::path& path, Index n_vertices, std::string_view property)
+std::vector<Index> read_vertex_set(const DataFile& file, Index n_vertices, std::string_view property)
 {
-    const auto marks = read_column(path, n_vertices, property, [](double mark) -> std::string {
+    const auto marks = read_column(file, n_vertices, property, [](double mark) -> std::string {
         return std::isnan(mark) ? "is not a number; write 0 or 1 for each vertex" : "";
     });
     if (!marks)
-        return read_list(path, n_vertices);
+        return read_list(file.path(), n_vertices);
     return select(run_serially, n_vertices, [&](Index v) { return (*marks)[v] != 0.0; });
 }
 
-std::vector<double> read_vertex_weights(const std::filesystem::path& path, Index n_vertices, std::string_view property)
+std::vector<double> read_vertex_weights(const DataFile& file, Index n_vertices, std::string_view property)
 {
-    auto weights = read_column(path, n_vertices, property, [](double weight) -> std::string {
+    auto weights = read_column(file, n_vertices, property, [](double weight) -> std::string {
         return is_weight(weight) ? "" : "is not a weight; write a number of at least 0 for each vertex";
     });
-    return weights ? std::move(*weights) : read_each<double>(path, n_vertices, weight_words);
+    return weights ? std::move(*weights) : read_each<double>(file.path(), n_vertices, weight_words);
 }
 
-std::vector<double> read_vertex_strengths(const std::filesystem::path& path, Index n_vertices,
-                                          std::string_view property)
+std::vector<double> read_vertex_strengths(const DataFile& file, Index n_vertices, std::string_view property)
 {
-    auto strengths = read_column(path, n_vertices, property, [](double strength) {
+    auto strengths = read_column(file, n_vertices, property, [](double strength) {
         return strength >= 0.0 && strength <= 1.0
                    ? std::string()
                    : fmt::format("is {:g}; write a number from 0 (the vertex stays) to 1 (it moves like without a "
@@ -225,7 +224,7 @@ std::vector<double> read_vertex_strengths(const std::filesystem::path& path, Ind
     if (strengths)
         return std::move(*strengths);
     std::vector<double> all(n_vertices, 0.0);
-    for (const Index v : read_list(path, n_vertices))
+    for (const Index v : read_list(file.path(), n_vertices))
         all[v] = 1.0;
     return all;
 }

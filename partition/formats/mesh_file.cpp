@@ -8,7 +8,7 @@
 #include "partition/errors.h"
 #include "partition/io/gzip.h"
 #include "partition/io/input_file.h"
-#include "partition/io/text_scanner.h"
+#include "partition/text.h"
 
 namespace seamflow {
 

@@ -14,6 +14,7 @@
 #include "partition/errors.h"
 #include "partition/formats/obj_scan.h"
 #include "partition/io/mesh_builder.h"
+#include "partition/text.h"
 
 namespace seamflow {
 

@@ -14,6 +14,7 @@
 #include "partition/formats/splicing.h"
 #include "partition/formats/text_colours.h"
 #include "partition/io/mesh_builder.h"
+#include "partition/text.h"
 
 namespace seamflow {
 

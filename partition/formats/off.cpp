@@ -17,6 +17,7 @@
 #include "partition/formats/text_vertices.h"
 #include "partition/io/mesh_builder.h"
 #include "partition/io/text_scanner.h"
+#include "partition/text.h"
 
 namespace seamflow {
 

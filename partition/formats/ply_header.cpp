@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "partition/text.h"
+
 namespace seamflow {
 
 namespace {

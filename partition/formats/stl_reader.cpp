@@ -18,6 +18,7 @@
 #include "partition/io/mesh_builder.h"
 #include "partition/io/slices.h"
 #include "partition/io/text_scanner.h"
+#include "partition/text.h"
 
 namespace seamflow {
 

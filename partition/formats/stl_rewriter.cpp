@@ -15,6 +15,7 @@
 #include "partition/formats/stl_scan.h"
 #include "partition/formats/writing_checks.h"
 #include "partition/io/byte_order.h"
+#include "partition/text.h"
 
 namespace seamflow {
 

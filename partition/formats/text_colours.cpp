@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
+#include "partition/text.h"
 
 namespace seamflow {
 

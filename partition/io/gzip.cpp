@@ -12,7 +12,7 @@
 
 #include "partition/errors.h"
 #include "partition/io/byte_order.h"
-#include "partition/io/input_position.h"
+#include "partition/text.h"
 
 namespace seamflow {
 

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "partition/text.h"
+
 namespace seamflow {
 
 bool are_corners_of_face(std::span<const Index> corners, std::vector<Index>& sorted)

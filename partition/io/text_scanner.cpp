@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "partition/io/plain_numbers.h"
+#include "partition/text.h"
 
 namespace seamflow {
 

@@ -1,5 +1,6 @@
 #include "samples/command/parse_smooth_command.h"
 
+#include <iostream>
 #include <string_view>
 #include <vector>
 
@@ -23,9 +24,9 @@ namespace {
 /// Properties are those of a .ply file.
 void require_ply_with_properties(const SmoothCommand& command)
 {
-    const auto require = [&](std::string_view option, const std::filesystem::path& path, std::string_view text) {
-        if (is_given(command, option) && format_of(path) != FileFormat::Ply)
-            refuse(filling(command.options)(text, unmarked(path.string()).text));
+    const auto require = [&](std::string_view option, const DataFile& file, std::string_view text) {
+        if (is_given(command, option) && file.format() != FileFormat::Ply)
+            refuse(filling(command.options)(text, unmarked(file.path().string()).text));
     };
     require("--fix-property", command.fix, "--fix-property is for a .ply file; {other} has vertex numbers");
     require("--region-property", command.region,
@@ -50,13 +51,33 @@ void require_usable_results(const SmoothCommand& command)
 std::filesystem::path region_file(const SmoothCommand& command)
 {
     std::error_code ignored;
-    if (command.region.empty() || std::filesystem::exists(command.region, ignored))
-        return command.region;
+    const std::filesystem::path& region = command.region.path();
+    if (region.empty() || std::filesystem::exists(region, ignored))
+        return region;
     if (is_input_stream(command.input) || format_of(command.input) != FileFormat::Ply)
         throw OptionError(fmt::format("--region {}: there is no such file, and INPUT is no .ply file with properties: "
                                       "name a file",
-                                      command.region.string()));
+                                      region.string()));
     return {};
+}
+
+/// INPUT has the edges that --edges-from-file asks for, and the region where that is no file but a property.
+void take_data_of_input(SmoothCommand& command)
+{
+    if (command.edges_from_file)
+        command.edges = command.input;
+    if (command.region.empty() || !region_file(command).empty())
+        return;
+    command.region_property = command.region.path().string();
+    command.region = command.input;
+}
+
+/// See SmoothCommand::messages.
+std::ostream& message_stream(const SmoothCommand& command)
+{
+    static std::ostream silence(nullptr);
+    const bool is_taken = is_standard_stream(command.output) || is_standard_stream(command.report);
+    return command.quiet ? silence : is_taken ? std::cerr : std::cout;
 }
 
 constexpr OptionRule<SmoothCommand> rules_of_files[]{
@@ -83,8 +104,12 @@ void require_usable_files(const SmoothCommand& command)
     require_files(results);
     if (!command.report.empty() && !is_standard_stream(command.report))
         results.push_back(command.report);
-    const std::vector<std::filesystem::path> further{command.labels,         command.fix,         command.edges,
-                                                     command.attach_weights, command.fields.from, region_file(command)};
+    const std::vector<std::filesystem::path> further{command.labels,
+                                                     command.fix.path(),
+                                                     command.edges.path(),
+                                                     command.attach_weights.path(),
+                                                     command.fields.from.path(),
+                                                     region_file(command)};
     require_files(further);
     std::vector<std::filesystem::path> inputs = further;
     inputs.push_back(command.input);
@@ -142,6 +167,8 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     command.options.report.record_schedule = !command.trace.empty() || !command.task_graph.empty();
     require_usable_results(command);
     require_usable_files(command);
+    take_data_of_input(command);
+    command.messages = &message_stream(command);
     return std::nullopt;
 }
 

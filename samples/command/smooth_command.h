@@ -2,12 +2,14 @@
 
 #include <filesystem>
 #include <functional>
+#include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/diffuse.h"
 #include "engine/measure/flow_report.h"
+#include "partition/formats/data_file.h"
 #include "samples/files/checkpoints.h"
 #include "samples/files/step_pattern.h"
 #include "samples/options/smooth_request.h"
@@ -21,7 +23,7 @@ struct FieldRequest {
     std::vector<std::string> names;
     FieldOptions options;
     /// File with the vertices to measure geodesic distances from; empty: none are measured.
-    std::filesystem::path from;
+    DataFile from;
 
     [[nodiscard]] bool exists() const { return !names.empty() || !from.empty(); }
 };
@@ -39,7 +41,7 @@ struct SmoothCommand : SmoothRequest {
     FieldRequest fields;
     /// Files; empty: none.
     std::filesystem::path labels;
-    std::filesystem::path fix;
+    DataFile fix;
     std::filesystem::path parts;
     std::filesystem::path report;
     std::filesystem::path csv;
@@ -48,15 +50,15 @@ struct SmoothCommand : SmoothRequest {
     std::filesystem::path html;
     /// The property of vertices that marks fixed ones, if `fix` is a PLY file.
     std::string fix_property = "fixed";
-    /// File with edges that are kept (see MotionOptions::feature_edges), or whether the input has them; empty: none.
-    std::filesystem::path edges;
+    /// File with edges that are kept (see MotionOptions::feature_edges); the input if it has them; empty: none.
+    DataFile edges;
     bool edges_from_file = false;
     /// A file with the w of an attachment, and if that is a PLY file, the property of vertices that holds it.
-    std::filesystem::path attach_weights;
+    DataFile attach_weights;
     std::string attach_property = "weight";
-    /// A file with the region that moves, or the property of the vertices of the input that has it; and the property of
-    /// the file, if that is a PLY file. Empty: everything moves.
-    std::filesystem::path region;
+    /// The file with the region that moves, which may be the input, and if that is a PLY file, the property of vertices
+    /// that holds it. Empty: everything moves.
+    DataFile region;
     std::string region_property = "region";
     /// The folder of the checkpoint; empty: none is kept.
     std::filesystem::path checkpoint;
@@ -64,6 +66,8 @@ struct SmoothCommand : SmoothRequest {
     /// Whether to print only errors; and details of each step and task.
     bool quiet = false;
     bool verbose = false;
+    /// Where messages go: nowhere with --quiet, to standard error where a result takes standard output.
+    std::ostream* messages = &std::cout;
     /// Where to write the mesh after every step.
     std::optional<StepPattern> every_step;
 };

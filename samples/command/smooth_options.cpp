@@ -38,6 +38,13 @@ TextReader to(std::filesystem::path& value, std::string type)
     return reader;
 }
 
+/// A file with data for the mesh.
+TextReader to(DataFile& value, std::string type = "FILE")
+{
+    return reader_by(
+        value, [](const std::string& text) { return DataFile(text); }, std::move(type));
+}
+
 /// The options of programs, in the order of --help within each group.
 class Entries {
   public:

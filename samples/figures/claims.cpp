@@ -5,6 +5,7 @@
 #include <map>
 #include <ostream>
 
+#include "partition/text.h"
 #include "samples/figures/experiment.h"
 #include "samples/figures/experiments.h"
 #include "samples/figures/measured.h"

@@ -108,12 +108,14 @@ class Run {
             std::istringstream words(command_of(run_.experiment_, variant_, run_.input_));
             std::string program;
             words >> program;
-            const RunRecord record{.input = run_.input_.name,
-                                   .output = flow_->name(),
-                                   .arguments = {std::istream_iterator<std::string>(words), {}},
-                                   .scale = measure_scale(run_.input_.mesh)};
-            flow_->finish(report,
-                          smooth_report_json(record, options_of(run_.experiment_, variant_, run_.input_), report));
+            const FlowOptions options = options_of(run_.experiment_, variant_, run_.input_);
+            RunRecord record{.input = run_.input_.name,
+                             .output = flow_->name(),
+                             .arguments = {std::istream_iterator<std::string>(words), {}},
+                             .scale = measure_scale(run_.input_.mesh),
+                             .names = flow_names(options, static_cast<int>(report.steps.size()))};
+            complete_record(record, report);
+            flow_->finish(report, smooth_report_json(record, options, report));
             run_.page_flows_.push_back(std::move(*flow_));
         }
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
-#include "partition/io/input_position.h"
+#include "partition/text.h"
 
 namespace seamflow {
 

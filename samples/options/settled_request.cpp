@@ -42,12 +42,12 @@ constexpr RequestRule rules_of_amounts[]{
     {[](const SmoothRequest& c, const Asked& asked) { return !is_for_fields(asked) && c.noise; }, concern::amount,
      "--noise sets how much a preset smooths, and <{other}> does so too: give one of them"},
     {[](const SmoothRequest& c, const Asked& asked) {
-         return !is_for_fields(asked) && c.preset.empty() && !has_amount(asked);
+         return !is_for_fields(asked) && c.preset == nullptr && !has_amount(asked);
      },
      concern::method,
      "<{other}> cannot be combined with a preset: say how much to smooth with --time-step, --time-step-edges or "
      "--radius"},
-    {[](const SmoothRequest& c, const Asked& asked) { return !is_for_fields(asked) && !c.preset.empty(); },
+    {[](const SmoothRequest& c, const Asked& asked) { return !is_for_fields(asked) && c.preset != nullptr; },
      concern::method,
      "<{other}> and --preset exclude each other: say how much to smooth with --time-step, --time-step-edges or "
      "--radius, and leave the preset out"},
@@ -154,8 +154,8 @@ void require_consistent(const SmoothRequest& request)
         require_none_broken<SmoothRequest>(rules_of_whole_mesh, request, asked, filling(request.options));
     } catch (const OptionError& error) {
         throw OptionError(sentence(error.wording(), [&](std::string_view option, std::string_view value) {
-            if (option == "denoise" && !request.preset.empty())
-                return "--preset " + request.preset;
+            if (option == "denoise" && request.preset != nullptr)
+                return fmt::format("--preset {}", request.preset->name);
             if (option == "feature_edges" && is_given(request, "--edges-from-file"))
                 return std::string("--edges-from-file");
             const bool is_implied = option == "approach" && value == "sweep" && !is_given(request, "--approach");
@@ -177,20 +177,21 @@ std::string in_words(std::span<const PresetSetting> settings, std::string_view b
 void take_preset(SmoothRequest& request)
 {
     const AskedOptions asked = asked_options(request);
-    if (is_for_fields(asked) || (request.preset.empty() && has_amount(asked)))
+    if (is_for_fields(asked) || (request.preset == nullptr && has_amount(asked)))
         return;
-    const PresetTraits& preset = request.preset.empty() ? default_preset(asked) : preset_of(request.preset);
-    request.preset = preset.name;
+    if (request.preset == nullptr)
+        request.preset = &default_preset(asked);
+    const PresetTraits& preset = *request.preset;
     if (request.noise && !preset.measures_noise())
-        throw OptionError("--noise is for --preset scan, terrain and automatic; " + request.preset +
-                          (preset.denoise ? " finds out itself how much there is at each place"
-                                          : " smooths as much whatever the noise"));
+        throw OptionError(fmt::format("--noise is for --preset scan, terrain and automatic; {} {}", preset.name,
+                                      preset.denoise ? "finds out itself how much there is at each place"
+                                                     : "smooths as much whatever the noise"));
     PresetSettings settings = apply_preset(preset, request.options, asked);
     if (!settings.left_out.empty()) {
         std::string left_out = in_words(settings.left_out, ", ");
         left_out.resize(left_out.size() - 2);
         request.remarks.push_back(fmt::format("--preset {} leaves out {}, which --laplacian {} does not support.",
-                                              request.preset, left_out, name_of(request.options.laplacian)));
+                                              preset.name, left_out, name_of(request.options.laplacian)));
     }
     static_cast<FlowOptions&>(request.options) = std::move(settings.options);
     request.options.denoise = settings.denoise;

@@ -95,9 +95,9 @@ RequestOption option_of_noise(SmoothRequest& request)
 RequestOption option_of_preset(SmoothRequest& request)
 {
     static const std::string text = describe_presets();
-    NamedValues<std::string> names;
+    NamedValues<const PresetTraits*> names;
     for (const PresetTraits& preset : all_presets())
-        names.emplace_back(preset.name, preset.name);
+        names.emplace_back(preset.name, &preset);
     return {{"", "--preset", option_group::kind, concern::motion | concern::whole_surface, text},
             "",
             reader_of_words(request.preset, names)};

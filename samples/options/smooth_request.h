@@ -13,6 +13,8 @@
 
 namespace seamflow {
 
+struct PresetTraits;
+
 /// What the boundary of a surface does.
 enum class BoundaryWord { Fixed, Free, Smooth };
 
@@ -27,8 +29,8 @@ struct SmoothRequest {
     /// All options except `labels`, `fixed_vertices`, the attachment and strength of vertices, which need the mesh.
     AllOptions options;
     BoundaryWord boundary = BoundaryWord::Fixed;
-    /// The name of the preset that was asked for, or is the default without an amount; empty: none.
-    std::string preset;
+    /// The preset that was asked for, or is the default without an amount; null: none.
+    const PresetTraits* preset = nullptr;
     /// The noise on which the preset is to base the amount, if it is known.
     std::optional<LengthOnMesh> noise;
     /// Whether to count the pairs of faces that cross each other, before and after.

@@ -4,7 +4,6 @@
 #include <cctype>
 
 #include "engine/options/option_table.h"
-#include "partition/remark.h"
 
 namespace seamflow {
 
@@ -29,6 +28,14 @@ std::string option_of_program(std::string_view option, std::string_view value)
     else if (known == all_options().end() && !option.starts_with("--"))
         std::ranges::replace(name.insert(0, "--"), '_', '-');
     return option_of_library(name, value);
+}
+
+std::vector<RemarkInWords> in_words_of_program(const std::vector<Remark>& remarks)
+{
+    std::vector<RemarkInWords> list;
+    for (const Remark& remark : remarks)
+        list.push_back({remark.kind, remark.numbers, sentence(remark, option_of_program)});
+    return list;
 }
 
 std::string in_words_of_keywords(std::string_view message)

@@ -243,14 +243,14 @@ py::tuple diffuse_arrays(const Array<double>& positions, const Array<Integer>& c
     py::array_t<double> result({fields.shape(0), fields.shape(1)});
     Eigen::Map<Rows>(result.mutable_data(), fields.shape(0), fields.shape(1)) = values;
     py::list remarks;
-    for (const Remark& remark : report.remarks) {
+    for (const RemarkInWords& remark : in_words_of_program(report.remarks)) {
         py::dict numbers;
         for (const auto& [name, value] : remark.numbers)
             numbers[py::str(name)] = value;
         py::dict one;
         one["kind"] = remark.kind;
         one["numbers"] = numbers;
-        one["text"] = in_words_of_keywords(sentence(remark, option_of_program));
+        one["text"] = in_words_of_keywords(remark.text);
         remarks.append(one);
     }
     return py::make_tuple(result, report.fwhm, report.without_data, report.filled, report.flow.time_step, remarks,

@@ -5,6 +5,7 @@
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
 #include "samples/process/option_words.h"
+#include "samples/report/mesh_scale.h"
 #include "samples/report/report_json.h"
 #include "samples/report/surface_remarks.h"
 #include "samples/runs/command_run.h"
@@ -38,6 +39,7 @@ MeshCall::MeshCall(SmoothRequest of_call, PolygonMesh given)
             throw InputError("has no vertices");
         Workers workers(request.options.resources.threads);
         require_valid(mesh, workers.exec());
+        record_.scale = measure_scale(mesh, workers.exec());
         resolve_amount(request, mesh, workers.exec(), record_);
         change_.emplace(mesh, workers.exec());
     });
@@ -55,8 +57,11 @@ FlowResult MeshCall::result(SmoothReport report)
     record_.surface = change_->measure(mesh, report.mesh, request.self_intersections, workers.exec());
     remark_on_loss(request.options, record_.surface, report.remarks);
     remark_on_folds(request.options, record_.surface, report.remarks);
-    for (Remark& remark : report.remarks)
-        remark.wording = unmarked(in_words_of_keywords(sentence(remark, option_of_program)));
+    // A Flow may have taken other steps than its options name.
+    record_.names = flow_names(request.options, static_cast<int>(report.steps.size()));
+    complete_record(record_, report);
+    for (RemarkInWords& remark : record_.remarks_in_words)
+        remark.text = in_words_of_keywords(remark.text);
     record_.seconds = watch_.seconds();
     FlowResult result{.positions = mesh.vertices,
                       .labels = {},

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "partition/executor.h"
-#include "partition/io/input_position.h"
+#include "partition/text.h"
 #include "samples/report/report_json.h"
 #include "samples/report/report_text.h"
 
@@ -101,10 +101,10 @@ void print_field_amount(std::ostream& out, const MeshScale& scale, const FlowOpt
 void print_fields(std::ostream& out, const RunRecord& run, const FieldSummary& summary)
 {
     const FieldReport& report = summary.report;
-    print_choices(out, report.flow.choices);
+    print_choices(out, run.choices_in_words);
     out << fmt::format("{}; {:.4g} MB\n", time_of(run, report.flow.seconds),
                        static_cast<double>(peak_memory_of(run)) / 1e6);
-    print_remarks(out, report.remarks);
+    print_remarks(out, run.remarks_in_words);
     if (report.without_data > 0)
         out << fmt::format("no data    at {}{}\n",
                            counted(static_cast<std::uint64_t>(report.without_data), "vertex", "vertices"),
@@ -150,8 +150,8 @@ std::string field_report_json(const RunRecord& run, const FlowOptions& options, 
                        {"step", phases.step},
                        {"write", run.write_seconds},
                        {"total", run.seconds}};
-    json["choices"] = remarks_json(report.flow.choices);
-    json["remarks"] = remarks_json(report.remarks);
+    json["choices"] = remarks_json(run.choices_in_words);
+    json["remarks"] = remarks_json(run.remarks_in_words);
     add_ranks(json, run.ranks);
     return text_of(json);
 }

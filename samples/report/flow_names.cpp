@@ -5,7 +5,7 @@
 
 namespace seamflow {
 
-FlowNames flow_names(const AllOptions& options, const SmoothReport& report)
+FlowNames flow_names(const AllOptions& options, int steps)
 {
     const StepFilter filter = filter_of(options);
     FlowNames names{.laplacian = name_of(options.laplacian),
@@ -13,10 +13,9 @@ FlowNames flow_names(const AllOptions& options, const SmoothReport& report)
                     .filter = option_name(filter.kind),
                     .order = filter.order,
                     .is_plain = filter.is_plain(),
-                    .rescale = option_name(options.motion.rescale),
-                    .approach = option_name(report.convergence.approach)};
-    if (!report.noise && !report.steps.empty())
-        names.radius = smoothed_radius(report.time_step, static_cast<int>(report.steps.size()), filter);
+                    .rescale = option_name(options.motion.rescale)};
+    if (!options.denoise && steps > 0)
+        names.radius = smoothed_radius(options.time_step, steps, filter);
     return names;
 }
 

@@ -13,8 +13,6 @@
 #include <sys/resource.h>
 
 #include "partition/version.h"
-#include "samples/process/option_words.h"
-#include "samples/report/flow_names.h"
 #include "samples/report/mesh_scale.h"
 
 namespace seamflow {
@@ -85,14 +83,14 @@ ReportJson look_json(const SurfaceLook& look)
     return json;
 }
 
-ReportJson remarks_json(const std::vector<Remark>& remarks)
+ReportJson remarks_json(const std::vector<RemarkInWords>& remarks)
 {
     ReportJson json = ReportJson::array();
-    for (const Remark& remark : remarks) {
+    for (const RemarkInWords& remark : remarks) {
         ReportJson numbers = ReportJson::object();
         for (const auto& [name, value] : remark.numbers)
             numbers[name] = json_number(value);
-        json.push_back({{"kind", remark.kind}, {"numbers", numbers}, {"text", sentence(remark, option_of_program)}});
+        json.push_back({{"kind", remark.kind}, {"numbers", numbers}, {"text", remark.text}});
     }
     return json;
 }
@@ -214,7 +212,7 @@ std::string text_of_cell(const Json& value)
 void add_flow(Json& json, const RunRecord& run, const AllOptions& options, const SmoothReport& report)
 {
     const MotionOptions& motion = options.motion;
-    const FlowNames names = flow_names(options, report);
+    const FlowNames& names = run.names;
     json["laplacian"] = names.laplacian;
     json["flow"] = names.flow;
     json["filter"] = names.filter;
@@ -281,8 +279,8 @@ std::string smooth_report_json(const RunRecord& run, const AllOptions& options, 
     if (report.displacement)
         json["displacement"] = total_json(*report.displacement, run.scale.mean_edge);
     json["surface"] = surface_json(run);
-    json["choices"] = remarks_json(report.choices);
-    json["remarks"] = remarks_json(report.remarks);
+    json["choices"] = remarks_json(run.choices_in_words);
+    json["remarks"] = remarks_json(run.remarks_in_words);
     json["peak_memory_bytes"] = peak_memory_of(run);
     json["page_faults"] = page_faults();
     add_ranks(json, run.ranks);

@@ -47,8 +47,8 @@ void add_ranks(ReportJson& json, const std::vector<RankRecord>& ranks);
 /// Area, volume, volumes of cells, if there are any, roughness and, where they were counted, crossing faces.
 ReportJson look_json(const SurfaceLook& look);
 
-/// Of each: kind, numbers by name, and text in the words of programs.
-ReportJson remarks_json(const std::vector<Remark>& remarks);
+/// Of each: kind, numbers by name, and text.
+ReportJson remarks_json(const std::vector<RemarkInWords>& remarks);
 
 /// The text of a report. Names of files need not be valid UTF-8, but JSON must be.
 std::string text_of(const ReportJson& json);
@@ -56,7 +56,7 @@ std::string text_of(const ReportJson& json);
 /// REPORT.json of `smooth` and `smooth-distributed`. All numbers read back to the same double; a number that is not
 /// finite becomes null. v_mean, v_rms and v_max are in mean edge lengths of the undecomposed flow's mesh,
 /// v_mean_absolute and so on in units of length; displacements are in mean edge lengths of the input.
-/// @param options with the amount.
+/// @param run complete (see complete_record). @param options with the amount.
 std::string smooth_report_json(const RunRecord& run, const AllOptions& options, const SmoothReport& report);
 
 /// STEPS.csv of --csv: one row per step, with all keys of steps in the report, and the smallest and the largest Robin

@@ -9,10 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/measure/smoothed_radius.h"
-#include "partition/io/input_position.h"
-#include "samples/process/option_words.h"
-#include "samples/report/flow_names.h"
+#include "partition/text.h"
 #include "samples/report/mesh_scale.h"
 
 namespace seamflow {
@@ -127,46 +124,30 @@ void print_input(std::ostream& out, const RunRecord& run, std::int64_t n_vertice
         << std::endl;
 }
 
-void print_preset(std::ostream& out, const RunRecord& run, const std::string& options)
+void print_start(std::ostream& out, const RunRecord& run, std::int64_t n_vertices, std::int64_t n_faces,
+                 const AllOptions& options)
 {
-    if (run.preset.empty())
-        return;
-    out << "preset     " << run.preset;
-    if (run.noise)
-        out << fmt::format(", for noise of {:.3g} mean edge lengths", *run.noise);
-    out << ": " << options << std::endl;
-}
-
-namespace {
-
-/// "3 steps of 2 squared mean edge lengths (dt 0.1)", and what they do.
-/// @param keep_edges in degrees; nothing: no edges are kept.
-void print_steps(std::ostream& out, const MeshScale& scale, const FlowOptions& options,
-                 const std::optional<double>& keep_edges)
-{
-    out << fmt::format("amount     {} of {:.6g} squared mean edge lengths (dt {:.6g})",
-                       counted(options.steps, "step", "steps"), options.time_step / (scale.mean_edge * scale.mean_edge),
-                       options.time_step);
-    if (keep_edges) {
-        out << fmt::format(", edges sharper than {:g} degrees kept", *keep_edges) << std::endl;
+    print_input(out, run, n_vertices, n_faces);
+    if (!run.preset.empty()) {
+        out << "preset     " << run.preset;
+        if (run.noise)
+            out << fmt::format(", for noise of {:.3g} mean edge lengths", *run.noise);
+        out << ": " << run.chosen << std::endl;
+    }
+    out << "amount     ";
+    if (options.steps == 0 || options.denoise) {
+        out << (options.steps == 0 ? "none" : "as much as there is noise at each place") << std::endl;
         return;
     }
-    const double radius = smoothed_radius(options.time_step, options.steps, filter_of(options));
-    out << fmt::format(": bumps of radius {:.6g}, {:.3g}% of the diagonal, lose half their height", radius,
-                       100.0 * radius / scale.diagonal)
-        << std::endl;
-}
-
-}  // namespace
-
-void print_amount(std::ostream& out, const MeshScale& scale, const AllOptions& options)
-{
-    if (options.steps == 0)
-        out << "amount     none" << std::endl;
-    else if (options.denoise)
-        out << "amount     as much as there is noise at each place" << std::endl;
-    else
-        print_steps(out, scale, options, options.keep_edges);
+    const MeshScale& scale = run.scale;
+    out << fmt::format("{} of {:.6g} squared mean edge lengths (dt {:.6g})", counted(options.steps, "step", "steps"),
+                       options.time_step / (scale.mean_edge * scale.mean_edge), options.time_step);
+    if (options.keep_edges)
+        out << fmt::format(", edges sharper than {:g} degrees kept", *options.keep_edges);
+    else if (run.names.radius)
+        out << fmt::format(": bumps of radius {:.6g}, {:.3g}% of the diagonal, lose half their height",
+                           *run.names.radius, 100.0 * *run.names.radius / scale.diagonal);
+    out << std::endl;
 }
 
 void print_step(std::ostream& out, const StepReport& report, int step, int steps, double mean_edge)
@@ -193,7 +174,7 @@ void print_step(std::ostream& out, const StepReport& report, int step, int steps
 
 void print_details(std::ostream& out, const RunRecord& run, const AllOptions& options, const SmoothReport& report)
 {
-    const FlowNames names = flow_names(options, report);
+    const FlowNames& names = run.names;
     out << "flow       "
         << (report.rounding      ? std::string("smoothest surface within half a step of rounding")
             : report.noise       ? std::string("noise removed")
@@ -245,26 +226,25 @@ std::string time_of(const RunRecord& run, const PhaseSeconds& phases)
                        std::max(rest, 0.0));
 }
 
-void print_choices(std::ostream& out, const std::vector<Remark>& choices)
+void print_choices(std::ostream& out, const std::vector<RemarkInWords>& choices)
 {
     for (std::size_t i = 0; i < choices.size(); ++i)
-        out << (i == 0 ? "chosen     " : " ") << sentence(choices[i], option_of_program)
-            << (i + 1 == choices.size() ? "\n" : "");
+        out << (i == 0 ? "chosen     " : " ") << choices[i].text << (i + 1 == choices.size() ? "\n" : "");
 }
 
-void print_remarks(std::ostream& out, const std::vector<Remark>& remarks)
+void print_remarks(std::ostream& out, const std::vector<RemarkInWords>& remarks)
 {
-    for (const Remark& remark : remarks)
-        out << "remark     " << sentence(remark, option_of_program) << '\n';
+    for (const RemarkInWords& remark : remarks)
+        out << "remark     " << remark.text << '\n';
 }
 
 void print_result(std::ostream& out, const RunRecord& run, const SmoothReport& report)
 {
-    print_choices(out, report.choices);
+    print_choices(out, run.choices_in_words);
     out << fmt::format(
         "{}; {}, {} MB{}\n", time_of(run, report.seconds), counted(report.resources.threads, "thread", "threads"),
         digits(static_cast<double>(peak_memory_of(run)) / 1e6, 4), run.ranks.size() > 1 ? " of a rank at most" : "");
-    print_remarks(out, report.remarks);
+    print_remarks(out, run.remarks_in_words);
     if (!report.steps.empty() && report.steps.back().distance) {
         out << "distance   ";
         print_distance_to_reference(out, report.steps.back());

@@ -17,12 +17,11 @@ namespace seamflow {
 /// Prints the input.
 void print_input(std::ostream& out, const RunRecord& run, std::int64_t n_vertices, std::int64_t n_faces);
 
-/// Prints the choices of a preset, if one was used.
-/// @param options with the same effect.
-void print_preset(std::ostream& out, const RunRecord& run, const std::string& options);
-
-/// Prints the amount of smoothing, in all units in which it can be given.
-void print_amount(std::ostream& out, const MeshScale& scale, const AllOptions& options);
+/// Prints the input, the choices of a preset, if one was used, and the amount of smoothing in all units in which it can
+/// be given.
+/// @param options resolved.
+void print_start(std::ostream& out, const RunRecord& run, std::int64_t n_vertices, std::int64_t n_faces,
+                 const AllOptions& options);
 
 /// One line for a step.
 /// @param step its number, from 1, of `steps`.
@@ -40,10 +39,10 @@ void print_ranks(std::ostream& out, const RunRecord& run, int n_ranks);
 std::string time_of(const RunRecord& run, const PhaseSeconds& phases);
 
 /// Prints how steps are taken, in a line.
-void print_choices(std::ostream& out, const std::vector<Remark>& choices);
+void print_choices(std::ostream& out, const std::vector<RemarkInWords>& choices);
 
 /// Prints a line for each remark.
-void print_remarks(std::ostream& out, const std::vector<Remark>& remarks);
+void print_remarks(std::ostream& out, const std::vector<RemarkInWords>& remarks);
 
 /// Prints choices with reasons, remarks, time and memory, where the result is, and how it differs from the input.
 void print_result(std::ostream& out, const RunRecord& run, const SmoothReport& report);

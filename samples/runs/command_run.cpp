@@ -1,22 +1,13 @@
 #include "samples/runs/command_run.h"
 
-#include <iostream>
 #include <string>
 
 #include <fmt/format.h>
 
-#include "partition/io/input_file.h"
-#include "partition/io/input_position.h"
+#include "partition/text.h"
 #include "samples/process/exit_status.h"
 
 namespace seamflow {
-
-std::ostream& message_stream(const SmoothCommand& command)
-{
-    static std::ostream silence(nullptr);
-    const bool is_taken = is_standard_stream(command.output) || is_standard_stream(command.report);
-    return command.quiet ? silence : is_taken ? std::cerr : std::cout;
-}
 
 std::string missed_tolerance(const SmoothRequest& request, const ConvergenceReport& report)
 {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <iosfwd>
 #include <string>
 
 #include "engine/measure/flow_report.h"
@@ -10,9 +9,6 @@
 
 /// The work around the runs of a command line.
 namespace seamflow {
-
-/// Where messages go: nowhere with --quiet, to standard error where a result takes standard output.
-std::ostream& message_stream(const SmoothCommand& command);
 
 /// "the tolerance 1e-08 was missed in 2 steps"; empty if the user has requested no tolerance or no step has failed.
 /// Those fail that missed it, or, if the user has limited the iterations, those that stagnated.

@@ -27,6 +27,7 @@
 #include "partition/io/input_file.h"
 #include "partition/io/input_position.h"
 #include "partition/metrics/bounding_box.h"
+#include "partition/text.h"
 #include "samples/files/about_file.h"
 #include "samples/files/mesh_input.h"
 #include "samples/files/mesh_results.h"
@@ -177,7 +178,7 @@ std::vector<Index> read_sources(const SmoothCommand& command, Index n_vertices)
 {
     std::vector<Index> from = read_vertex_set(command.fields.from, n_vertices, command.fix_property);
     if (from.empty())
-        throw InputError(command.fields.from.string() + ": names no vertex: write one number at least");
+        throw InputError(command.fields.from.path().string() + ": names no vertex: write one number at least");
     return from;
 }
 
@@ -226,7 +227,7 @@ void write_result(const MeshOutput& output, const MeshFile& file, FileFields& fi
 ExitStatus run_fields(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
 {
     Interruption interruption(command.program);
-    std::ostream& out = message_stream(command);
+    std::ostream& out = *command.messages;
     const Stopwatch whole;
     Workers workers(command.options.resources.threads);
     const Executor exec = workers.exec();
@@ -269,6 +270,8 @@ ExitStatus run_fields(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
         fields.decimals = {of_distances};
     write_result(output, file, fields, left_out, exec, run, summary);
     run.ranks = summary.report.flow.ranks;
+    run.choices_in_words = in_words_of_program(summary.report.flow.choices);
+    run.remarks_in_words = in_words_of_program(summary.report.remarks);
     run.seconds = whole.seconds();
     const std::string report = field_report_json(run, command.options, summary);
     if (!command.report.empty())

@@ -36,15 +36,12 @@ void read_named_files(SmoothCommand& command, const PolygonMesh& mesh, const std
     MotionOptions& motion = command.options.motion;
     if (!command.fix.empty())
         motion.fixed_vertices = read_vertex_set(command.fix, n, command.fix_property);
-    if (!command.edges.empty() || command.edges_from_file)
-        motion.feature_edges = read_edges(command.edges_from_file ? command.input : command.edges, n);
     if (!command.attach_weights.empty())
         motion.attachment_weights = read_vertex_weights(command.attach_weights, n, command.attach_property);
-    if (command.region.empty())
-        return;
-    const bool is_file = std::filesystem::exists(command.region);
-    motion.strength = read_vertex_strengths(is_file ? command.region : command.input, n,
-                                            is_file ? command.region_property : command.region.string());
+    if (!command.region.empty())
+        motion.strength = read_vertex_strengths(command.region, n, command.region_property);
+    if (!command.edges.empty())
+        motion.feature_edges = read_edges(command.edges, n);
 }
 
 }  // namespace seamflow

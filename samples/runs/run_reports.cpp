@@ -1,39 +1,19 @@
 #include "samples/runs/run_reports.h"
 
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <utility>
 
 #include "samples/files/output_files.h"
 #include "samples/page/page_html.h"
-#include "samples/page/read_file_colours.h"
-#include "samples/page/shown_steps.h"
 #include "samples/report/report_json.h"
 #include "samples/report/schedule_files.h"
 
 namespace seamflow {
 
-std::optional<PageFlow> begin_page(const SmoothCommand& command, const MeshFile& file,
-                                   const std::vector<Index>& left_out, Workers& workers)
-{
-    std::optional<PageFlow> page;
-    if (command.html.empty())
-        return page;
-    require_showable(file.mesh, command.html);
-    workers.execute([&] {
-        page.emplace(std::make_shared<const PageMesh>(file.mesh, read_file_colours(command.input, file, left_out)),
-                     command.output.filename().string(), command.options.laplacian, command.options.steps,
-                     command.options.report.reference);
-    });
-    return page;
-}
-
-void write_reports(const SmoothCommand& command, const RunRecord& run, SmoothReport& report,
+void write_reports(const SmoothCommand& command, const RunRecord& run, const SmoothReport& report,
                    std::optional<PageFlow>& page)
 {
-    if (page && !page->remark().empty())
-        report.remarks.push_back(page->remark());
     std::string json;
     if (page || !command.report.empty() || !command.csv.empty())
         json = smooth_report_json(run, command.options, report);

@@ -13,7 +13,6 @@
 #include "engine/setup/resolved_options.h"
 #include "partition/errors.h"
 #include "partition/io/input_file.h"
-#include "partition/io/input_position.h"
 #include "partition/metrics/bounding_box.h"
 #include "partition/metrics/edge_measures.h"
 
@@ -24,7 +23,7 @@ namespace {
 /// The amount that the preset chooses.
 void choose_amount(SmoothRequest& request, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
 {
-    const PresetTraits& preset = preset_of(request.preset);
+    const PresetTraits& preset = *request.preset;
     if (request.options.denoise) {
         request.options.motion.limits = DenoiseOptions::default_motion().limits;
         return;
@@ -37,12 +36,12 @@ void choose_amount(SmoothRequest& request, const PolygonMesh& mesh, const Execut
     if (choice.noise)
         run.noise = run.scale.mean_edge > 0.0 ? *choice.noise / run.scale.mean_edge : 0.0;
     if (choice.remark)
-        request.chosen = "nothing is smoothed";
+        run.chosen = "nothing is smoothed";
     else if (preset.radius)
-        request.chosen += request.chosen_amount;
+        run.chosen += request.chosen_amount;
     else
-        request.chosen += fmt::format("--time-step-edges {:.3g}",
-                                      request.options.time_step / (run.scale.mean_edge * run.scale.mean_edge));
+        run.chosen += fmt::format("--time-step-edges {:.3g}",
+                                  request.options.time_step / (run.scale.mean_edge * run.scale.mean_edge));
 }
 
 }  // namespace
@@ -50,13 +49,13 @@ void choose_amount(SmoothRequest& request, const PolygonMesh& mesh, const Execut
 RunRecord begin_record(const SmoothRequest& request)
 {
     return {.arguments = request.arguments,
-            .preset = request.preset,
+            .preset = std::string(request.preset != nullptr ? request.preset->name : ""),
+            .chosen = request.chosen,
             .remarks = {request.remarks.begin(), request.remarks.end()}};
 }
 
 void resolve_amount(SmoothRequest& request, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
 {
-    run.scale = measure_scale(mesh, exec);
     if (!run.scale.far_vertices.empty())
         run.remarks.push_back(remark_on_far_vertices(run.scale.far_vertices));
     if (request.chooses_amount)
@@ -67,6 +66,7 @@ void resolve_amount(SmoothRequest& request, const PolygonMesh& mesh, const Execu
     LengthScale scale = run.scale.lengths();
     FlowOptions& options = request.options;
     options = resolved(std::move(options), mesh, scale, exec, run.remarks);
+    run.names = flow_names(request.options, options.steps);
 }
 
 }  // namespace seamflow

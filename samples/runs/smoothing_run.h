@@ -16,7 +16,7 @@ RunRecord begin_record(const SmoothRequest& request);
 
 /// Chooses an amount by the preset, and resolves the options for the mesh (see resolved_options.h); records what they
 /// follow from in `run`.
-/// @param mesh valid (see require_valid).
+/// @param mesh valid (see require_valid). @param run with the scale of the mesh.
 /// @throws InputError for a mesh that has no size to measure by.
 void resolve_amount(SmoothRequest& request, const PolygonMesh& mesh, const Executor& exec, RunRecord& run);
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/ranks/peak_memory.h"
-#include "partition/io/input_position.h"
+#include "partition/text.h"
 #include "samples/process/exit_status.h"
 #include "samples/process/option_words.h"
 #include "samples/report/report_text.h"
@@ -33,8 +33,8 @@ void TileReport::print_input(std::span<const TileSummary> tiles, const MeshScale
     RunRecord record;
     record.input = counted(tiles.size(), "file", "files");
     record.scale = scale;
-    seamflow::print_input(out_, record, n_vertices, n_faces);
-    print_amount(out_, scale, options);
+    record.names = flow_names(options, options.steps);
+    print_start(out_, record, n_vertices, n_faces, options);
     out_ << fmt::format("tiles      {} vertices at most; {} of {} border vertices coincide with those of other files; "
                         "bands of {:.6g} around each",
                         most, run.n_shared, run.n_border, width)

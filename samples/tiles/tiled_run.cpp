@@ -17,7 +17,7 @@
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
-#include "partition/io/input_position.h"
+#include "partition/text.h"
 #include "samples/files/mesh_results.h"
 #include "samples/files/output_files.h"
 #include "samples/process/exit_status.h"

@@ -17,6 +17,18 @@
 using namespace seamflow;
 using Json = nlohmann::json;
 
+namespace {
+
+/// The report of a run that is complete.
+std::string json_of_run(RunRecord run, const AllOptions& options, const FlowReport& report)
+{
+    run.names = flow_names(options, static_cast<int>(report.steps.size()));
+    complete_record(run, report);
+    return smooth_report_json(run, options, report);
+}
+
+}  // namespace
+
 TEST_CASE("the numbers of a report read back to the same double")
 {
     FlowReport report;
@@ -26,7 +38,7 @@ TEST_CASE("the numbers of a report read back to the same double")
     step.max_mean_curvature_after = 1e-300;
     step.distance = VertexDistance{0.1, 0.2, 0.3, 0.7};
     report.steps = {step, StepReport{}};
-    const Json json = Json::parse(smooth_report_json(RunRecord{}, FlowOptions{}, report));
+    const Json json = Json::parse(json_of_run(RunRecord{}, FlowOptions{}, report));
     CHECK(json["time_step"].get<double>() == report.time_step);
     CHECK(json["p"].get<std::vector<double>>() == std::vector<double>{1.0 / 3.0, 6.2993055940947205});
     CHECK(json["steps"][0]["max_mean_curvature_after"].get<double>() == 1e-300);
@@ -39,8 +51,7 @@ TEST_CASE("the numbers of a report read back to the same double")
 TEST_CASE("a report counts the pages of memory that were touched for the first time")
 {
     const auto faults = [] {
-        return Json::parse(smooth_report_json(RunRecord{}, FlowOptions{}, FlowReport{}))["page_faults"]
-            .get<std::int64_t>();
+        return Json::parse(json_of_run(RunRecord{}, FlowOptions{}, FlowReport{}))["page_faults"].get<std::int64_t>();
     };
     constexpr std::int64_t n_pages = 1000;
     const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
@@ -56,17 +67,17 @@ TEST_CASE("a report counts the pages of memory that were touched for the first t
 TEST_CASE("a report tells how many converged steps missed their tolerance, and which of them stagnated")
 {
     FlowReport report;
-    const Json of_sweeps = Json::parse(smooth_report_json(RunRecord{}, FlowOptions{}, report));
+    const Json of_sweeps = Json::parse(json_of_run(RunRecord{}, FlowOptions{}, report));
     for (const char* key : {"tolerance", "steps_short_of_tolerance", "steps_stagnated"})
         CHECK_FALSE(of_sweeps.contains(key));
     report.convergence.tolerance = 1e-9;
-    const Json all_reached = Json::parse(smooth_report_json(RunRecord{}, FlowOptions{}, report));
+    const Json all_reached = Json::parse(json_of_run(RunRecord{}, FlowOptions{}, report));
     CHECK(all_reached["tolerance"] == 1e-9);
     CHECK(all_reached["steps_short_of_tolerance"] == 0);
     CHECK(all_reached["steps_stagnated"] == 0);
     report.convergence.steps_short_of_tolerance = 5;
     report.convergence.steps_stagnated = 3;
-    const Json missed = Json::parse(smooth_report_json(RunRecord{}, FlowOptions{}, report));
+    const Json missed = Json::parse(json_of_run(RunRecord{}, FlowOptions{}, report));
     CHECK(missed["steps_short_of_tolerance"] == 5);
     CHECK(missed["steps_stagnated"] == 3);
 }
@@ -76,7 +87,7 @@ TEST_CASE("a report is valid JSON whatever happened")
     FlowReport report;
     report.time_step = std::numeric_limits<double>::quiet_NaN();
     // Where nothing was smoothed there is no amount.
-    CHECK_FALSE(Json::parse(smooth_report_json(RunRecord{}, FlowOptions{}, report)).contains("time_step"));
+    CHECK_FALSE(Json::parse(json_of_run(RunRecord{}, FlowOptions{}, report)).contains("time_step"));
     report.steps = {StepReport{}};
     report.cut.sub_meshes = {{.p = std::numeric_limits<double>::infinity()}};
     RunRecord run;
@@ -86,7 +97,7 @@ TEST_CASE("a report is valid JSON whatever happened")
     run.surface.after = {
         .area = std::numeric_limits<double>::infinity(), .volume = 2.0, .roughness = Roughness{3.0, 4.0}};
     run.surface.moved = {.mean = 1.0, .rms = 2.0, .max = 3.0};
-    const Json json = Json::parse(smooth_report_json(run, FlowOptions{}, report));
+    const Json json = Json::parse(json_of_run(run, FlowOptions{}, report));
     CHECK(json["time_step"].is_null());
     CHECK(json["p"][0].is_null());
     CHECK(json["choices"][0]["text"] == "a choice");
@@ -115,7 +126,7 @@ TEST_CASE("displacements are in mean edge lengths of the input")
     report.displacement = {.path = step.displacement, .drift = {0.5, 0.25, 7.0}};
     RunRecord run;
     run.scale.mean_edge = 2.0;
-    const Json json = Json::parse(smooth_report_json(run, FlowOptions{}, report));
+    const Json json = Json::parse(json_of_run(run, FlowOptions{}, report));
     CHECK_FALSE(json.contains("region"));
     CHECK(json["steps"][0]["tangential_mean"] == 0.5);
     CHECK(json["steps"][0]["tangential_rms"] == 1.0);
@@ -129,7 +140,7 @@ TEST_CASE("the report says how vertices were to move")
     AllOptions options;
     options.keep_edges = 30.0;
     options.motion = {.attachment = 0.25, .attachment_weights = {1.0, 2.0}, .strength = {0.0, 1.0}};
-    const Json json = Json::parse(smooth_report_json(RunRecord{}, options, FlowReport{}));
+    const Json json = Json::parse(json_of_run(RunRecord{}, options, FlowReport{}));
     CHECK(json["region"] == true);
     CHECK(json["attachment"] == 0.25);
     CHECK(json["attachment_weights"] == true);
@@ -158,7 +169,7 @@ TEST_CASE("the report of compare has what was measured, and nothing else")
 TEST_CASE("reports say by which version they were made, when, and which keys they have")
 {
     for (const std::string& text :
-         {smooth_report_json(RunRecord{}, FlowOptions{}, FlowReport{}), smooth_failure_json(RunRecord{}, Failure{})}) {
+         {json_of_run(RunRecord{}, FlowOptions{}, FlowReport{}), smooth_failure_json(RunRecord{}, Failure{})}) {
         const Json json = Json::parse(text);
         CHECK(json["schema"] == 3);
         CHECK(json["version"] == std::string(version));
@@ -184,7 +195,7 @@ TEST_CASE("the table of steps has a row for each, and a column for all that any 
     report.steps = {first, second};
     RunRecord run;
     run.scale.mean_edge = 1.0;
-    const std::string csv = steps_csv(smooth_report_json(run, FlowOptions{}, report));
+    const std::string csv = steps_csv(json_of_run(run, FlowOptions{}, report));
     std::istringstream lines(csv);
     std::vector<std::vector<std::string>> rows;
     for (std::string line; std::getline(lines, line);) {
@@ -215,5 +226,5 @@ TEST_CASE("the table of steps has a row for each, and a column for all that any 
     CHECK(std::stod(cell(2, "h_rms")) == 0.1 / 0.5);
     CHECK(std::stod(cell(2, "h_max")) == 0.25 / 0.5);
     CHECK(std::stod(cell(2, "h_max_absolute")) == 0.25);
-    CHECK(steps_csv(smooth_report_json(run, FlowOptions{}, FlowReport{})) == "step,p_smallest,p_largest\n");
+    CHECK(steps_csv(json_of_run(run, FlowOptions{}, FlowReport{})) == "step,p_smallest,p_largest\n");
 }

@@ -13,7 +13,9 @@ TEST_CASE("the amount of smoothing in all its units")
     options.steps = 3;
     options.time_step = time_step_for_radius(0.5, options.steps);
     std::ostringstream text;
-    print_amount(text, {.mean_edge = 0.1, .diagonal = 2.0}, options);
+    print_start(text, {.scale = {.mean_edge = 0.1, .diagonal = 2.0}, .names = flow_names(options, options.steps)}, 4, 2,
+                options);
+    CHECK(text.str().find("4 vertices, 2 faces, mean edge 0.1\n") != std::string::npos);
     CHECK(text.str().find("bumps of radius 0.5, 25% of the diagonal") != std::string::npos);
     std::ostringstream edges;
     edges << "3 steps of " << options.time_step / 0.01;
@@ -36,6 +38,7 @@ TEST_CASE("what a run prints at the end: choices, time, remarks, and what the re
     report.steps.resize(1);
     report.steps.back().estimated_v_max = 0.03;
     std::ostringstream text;
+    complete_record(run, report);
     print_result(text, run, report);
     const std::string printed = text.str();
     CHECK(printed.find("chosen     This. That.\ntime       1.25 s: read ") == 0);
@@ -49,7 +52,7 @@ TEST_CASE("what a run prints at the end: choices, time, remarks, and what the re
 
     run.surface.after.volume.reset();
     run.surface.after.roughness.reset();
-    report.choices.clear();
+    run.choices_in_words.clear();
     report.steps.back().distance = VertexDistance{.mean = 1.0, .rms = 2.0, .max = 3.0, .mean_edge = 2.0};
     std::ostringstream other;
     print_result(other, run, report);

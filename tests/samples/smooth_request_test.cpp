@@ -5,6 +5,7 @@
 #include <CLI/App.hpp>
 #include <doctest/doctest.h>
 
+#include "engine/setup/presets.h"
 #include "partition/errors.h"
 #include "samples/command/smooth_options.h"
 #include "samples/options/smooth_request.h"
@@ -91,8 +92,8 @@ TEST_CASE("no preset chooses for fields, and arrays count as given")
 {
     CHECK(request_of({}, {}).chooses_amount);
     CHECK_FALSE(request_of({}, {}, true).chooses_amount);
-    CHECK(request_of({}, {}, true).preset.empty());
+    CHECK(request_of({}, {}, true).preset == nullptr);
     CHECK(request_of({{"--radius", "1%"}}, {"--labels"}).options.accuracy.approach == Approach::Decomposed);
     CHECK(request_of({{"--radius", "1%"}}, {}).options.accuracy.approach == Approach::Automatic);
-    CHECK(request_of({}, {"--edges"}).preset == "cad");
+    CHECK(request_of({}, {"--edges"}).preset->name == "cad");
 }

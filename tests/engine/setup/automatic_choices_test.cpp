@@ -196,7 +196,7 @@ TEST_CASE("the number of iterations of conjugate gradients is foreseen within a 
                 for (const double tolerance : {1e-2, 1e-4}) {
                     FlowOptions options = step_options(mesh, laplacian, step);
                     options.accuracy = {.tolerance = tolerance, .approach = Approach::ConjugateGradients};
-                    options.uniform_edge = uniform_edge_of(options, mesh);
+                    options.uniform_edge = resolved(options, mesh).uniform_edge;
                     PolygonMesh moved = mesh;
                     const int taken = mean_curvature_flow(moved, options).steps[0].iterations.value();
                     const FlowSize size{.vertices = mesh.n_vertices(),

@@ -50,7 +50,7 @@ TEST_CASE("a surface whose faces are there twice flows like the single one, and 
                 CHECK(moved.face_vertices == both.face_vertices);
                 FlowOptions of_single = repeated_faces_options(laplacian, subdomains);
                 // That of a mesh whose edges count as often as they are there.
-                of_single.uniform_edge = uniform_edge_of(repeated_faces_options(laplacian, subdomains), both);
+                of_single.uniform_edge = resolved(repeated_faces_options(laplacian, subdomains), both).uniform_edge;
                 CHECK(moved.vertices == flowed(single, of_single));
                 CHECK(report.mesh.faces == both.n_faces());
                 REQUIRE(report.cut.labels.size() == usize(both.n_faces()));

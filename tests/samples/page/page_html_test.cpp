@@ -36,6 +36,7 @@ PageFlow make_flow(bool undecomposed, const std::string& input = "torus.obj")
     });
     RunRecord run;
     run.input = input;
+    complete_record(run, report);
     flow.finish(report, smooth_report_json(run, options, report));
     return flow;
 }
