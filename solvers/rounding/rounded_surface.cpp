@@ -15,7 +15,9 @@
 #include "partition/vector_area.h"
 #include "solvers/denoising/face_averages.h"
 #include "solvers/denoising/vertex_averages.h"
+#include "solvers/rounding/joined_copies.h"
 #include "solvers/rounding/kept_volumes.h"
+#include "solvers/rounding/uncrossed_faces.h"
 
 namespace seamflow {
 
@@ -149,15 +151,15 @@ bool bends_no_less(double with_edges, double without)
 /// Smooths the normals of a surface within bounds.
 class NormalsInBoxes {
   public:
-    NormalsInBoxes(const PolygonMesh& mesh, const Topology& topology, const Components& components, const Parts& parts,
+    NormalsInBoxes(const PolygonMesh& mesh, const Topology& topology, const Parts& parts, const KeptVolumes& volumes,
                    const Boxes& boxes, const Executor& exec)
         : mesh_(mesh)
         , topology_(topology)
         , parts_(parts)
+        , volumes_(volumes)
         , boxes_(boxes)
         , exec_(exec)
-        , averages_(mesh, topology, exec)
-        , volumes_(mesh, topology, components, boxes.middles, exec)
+        , averages_(mesh, topology, exec, Sheets::Own)
     {
     }
 
@@ -236,10 +238,10 @@ class NormalsInBoxes {
     const PolygonMesh& mesh_;
     const Topology& topology_;
     const Parts& parts_;
+    const KeptVolumes& volumes_;
     const Boxes& boxes_;
     const Executor& exec_;
     FaceAverages averages_;
-    KeptVolumes volumes_;
     /// #F: the averaged normals, and memory for averages.
     FaceVectors normals_;
     FaceVectors means_;
@@ -293,15 +295,12 @@ bool begins_with_fairing(const CoordinateBounds& bounds)
     return bounds.kind != CoordinateBounds::Kind::MarchingCubes || !has_equal_steps(bounds.steps);
 }
 
-}  // namespace
-
-SmoothedWithinSteps smooth_within(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
-                                  CoordinateBounds bounds, const std::vector<double>& strengths, const Executor& exec)
+/// See smooth_within.
+/// @param bounds of vertices that do not move: 0.
+SmoothedWithinSteps smooth_in_boxes(const PolygonMesh& mesh, const Topology& topology, const Components& components,
+                                    const KeptVolumes& volumes, const Points& positions, const CoordinateBounds& bounds,
+                                    const Executor& exec)
 {
-    for_each(exec, mesh.n_vertices(), [&](Index v) {
-        const double strength = strengths.empty() ? 1.0 : strengths[v];
-        bounds.widths.row(v) *= topology.moves(v) ? strength : 0.0;
-    });
     const Boxes boxes{positions, bounds.widths};
     SmoothedWithinSteps result{.positions = positions, .steps = bounds.steps};
     const double smallest_step = (bounds.steps.array() > 0.0).select(bounds.steps, bounds.steps.maxCoeff()).minCoeff();
@@ -309,10 +308,10 @@ SmoothedWithinSteps smooth_within(const PolygonMesh& mesh, const Topology& topol
         result.fairing = fair_in_boxes(VertexAverages(mesh, topology, exec).neighbours(), boxes,
                                        {most_iterations, last_motion * smallest_step}, result.positions, exec);
     result.fairing.last_motion /= smallest_step;
-    const Components components = face_components(mesh, topology);
     const Parts parts(mesh, topology, components);
-    NormalsInBoxes normals(mesh, topology, components, parts, boxes, exec);
-    Points with_edges = result.positions;
+    NormalsInBoxes normals(mesh, topology, parts, volumes, boxes, exec);
+    const Points fair = result.positions;
+    Points with_edges = fair;
     std::vector<double> bending = normals.smooth(all_normals, result.positions);
     const std::vector<double> bending_with_edges = normals.smooth(same_side, with_edges, bending);
     std::vector<std::uint8_t> taken(bending.size(), 0);
@@ -322,6 +321,7 @@ SmoothedWithinSteps smooth_within(const PolygonMesh& mesh, const Topology& topol
             bending[part] = bending_with_edges[part];
         }
     take(parts, taken, with_edges, result.positions, exec);
+    uncross_faces(mesh, topology, fair, boxes, result.positions, exec);
 
     const std::vector<double> before = normals.bending(positions);
     const std::vector<double> near = fractions_near_bounds(parts, boxes, bounds, result.positions);
@@ -336,6 +336,43 @@ SmoothedWithinSteps smooth_within(const PolygonMesh& mesh, const Topology& topol
     result.where_explained = result.positions;
     take(parts, is_unexplained, positions, result.where_explained, exec);
     return result;
+}
+
+/// Smooths a surface whose components touch: copies of a vertex move as one.
+SmoothedWithinSteps smooth_joined(const JoinedCopies& joined, KeptVolumes& volumes, const Points& positions,
+                                  CoordinateBounds bounds, const Executor& exec)
+{
+    const std::vector<Index>& original_of = joined.original_of;
+    const auto n = static_cast<Index>(original_of.size());
+    for (Index v = 0; v < n; ++v)
+        if (const Index original = original_of[v]; original != v) {
+            volumes.hold(original);
+            bounds.widths.row(original) = bounds.widths.row(original).cwiseMin(bounds.widths.row(v));
+        }
+    Topology topology = make_topology(joined.mesh, exec);
+    free_junctions(joined.mesh, topology, exec);
+    SmoothedWithinSteps result = smooth_in_boxes(joined.mesh, topology, face_components(joined.mesh, topology), volumes,
+                                                 positions, bounds, exec);
+    for (Points* const points : {&result.positions, &result.where_explained})
+        for_each(exec, n, [&](Index v) { points->row(v) = points->row(original_of[v]); });
+    return result;
+}
+
+}  // namespace
+
+SmoothedWithinSteps smooth_within(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                                  CoordinateBounds bounds, const std::vector<double>& strengths, const Executor& exec)
+{
+    for_each(exec, mesh.n_vertices(), [&](Index v) {
+        const double strength = strengths.empty() ? 1.0 : strengths[v];
+        bounds.widths.row(v) *= topology.moves(v) ? strength : 0.0;
+    });
+    const Components components = face_components(mesh, topology);
+    const std::optional<JoinedCopies> joined = join_copies(mesh, topology, components, positions, exec);
+    KeptVolumes volumes(joined ? joined->all_faces : mesh, topology, components, positions, exec);
+    if (joined)
+        return smooth_joined(*joined, volumes, positions, std::move(bounds), exec);
+    return smooth_in_boxes(mesh, topology, components, volumes, positions, bounds, exec);
 }
 
 CoordinateBounds bounds_of(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
