@@ -179,10 +179,10 @@ double turn_of_lines(const PolygonMesh& mesh, const Points& positions)
 }
 
 /// Each segment with a closed surface of its own, so that walls between two of them are there twice.
-PolygonMesh closed_segments(const Materials& material, Index n)
+PolygonMesh closed_segments(const Materials& material, Index n, const std::vector<Index>& labels = {1, 2})
 {
     std::vector<PolygonMesh> segments;
-    for (Index label = 1; label <= 2; ++label)
+    for (const Index label : labels)
         segments.push_back(test::voxel_faces([&](const Point& point) { return material(point) == label; }, n));
     return test::together(segments);
 }
@@ -316,6 +316,20 @@ TEST_CASE("copies of a vertex stay where one of them is held")
     }
 }
 
+TEST_CASE("it does not matter which of two segments that touch comes first")
+{
+    const Materials balls = two_balls(Point(6.0, 4.0, 2.0), 6.3);
+    const PolygonMesh mesh = closed_segments(balls, 26);
+    const PolygonMesh other = closed_segments(balls, 26, {2, 1});
+    const Points smooth = smooth_materials(mesh);
+    const Points of_other = smooth_materials(other);
+    const Index n = test::voxel_faces([&](const Point& point) { return balls(point) == 1; }, 26).n_vertices();
+    const Index n_other = other.n_vertices() - n;
+    REQUIRE(other.vertices.bottomRows(n) == mesh.vertices.topRows(n));
+    CHECK((of_other.bottomRows(n) - smooth.topRows(n)).cwiseAbs().maxCoeff() < 1e-3);
+    CHECK((of_other.topRows(n_other) - smooth.bottomRows(n_other)).cwiseAbs().maxCoeff() < 1e-3);
+}
+
 TEST_CASE("vertices that rounding brings to one place within a component are not joined")
 {
     const PolygonMesh coarse = test::rounded(test::triangle_torus(20, 10), Point::Constant(1.0));
@@ -343,6 +357,25 @@ TEST_CASE("vertices that rounding brings to one place within a component are not
     CHECK(n_joined < n);
     CHECK(copies->mesh.n_faces() < twice.n_faces());
     CHECK(copies->all_faces.n_faces() == twice.n_faces());
+}
+
+TEST_CASE("components that touch in points, without a common edge, are not joined")
+{
+    // A quad, and triangles with three of its corners, two of them at the ends of its diagonal.
+    PolygonMesh mesh;
+    mesh.vertices.resize(9, 3);
+    mesh.vertices << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, /**/ 0, 0, 0, 1, 1, 0, 0.5, 0.5, -1, 1, 0, 0, 2, 0.5, -1;
+    mesh.add_face(std::array<Index, 4>{0, 1, 2, 3});
+    mesh.add_face(std::array<Index, 3>{4, 5, 6});
+    mesh.add_face(std::array<Index, 3>{5, 8, 6});
+    mesh.add_face(std::array<Index, 3>{6, 8, 7});
+    const auto is_joined = [&] {
+        const Topology topology = make_topology(mesh);
+        return join_copies(mesh, topology, face_components(mesh, topology), mesh.vertices).has_value();
+    };
+    CHECK_FALSE(is_joined());
+    mesh.add_face(std::array<Index, 3>{5, 7, 8});
+    CHECK(is_joined());
 }
 
 TEST_CASE("walls between materials have the same bits however loops are run")
