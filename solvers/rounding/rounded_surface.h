@@ -32,7 +32,9 @@ struct SmoothedWithinSteps {
 /// marching cubes of equal steps: there edges are about as long as steps, and the umbrella would pull vertices along
 /// the surface rather than smooth it. Then normals are averaged again and again, and vertices fitted to them within
 /// the bounds, in two ways: over all neighbours, and over those on the same side of an edge. Of the two surfaces, the
-/// one that bends less is the result, and the first if both bend alike.
+/// one that bends less is the result, and the first if both bend alike. Normals are not averaged over other sheets.
+/// Where components touch, copies of a vertex move as one (see join_copies), and no faces cross beside lines and sharp
+/// edges that did not (see uncross_faces).
 /// @pre bounds.kind is not None. @param topology with twins. Vertices that it fixes do not move. @param positions #V
 /// by 3.
 /// @param strengths #V: the fraction of its bounds that a vertex gets, 0 to 1; empty: 1.
