@@ -41,6 +41,13 @@ class Mesh:
         self.face_of = np.repeat(np.arange(len(corners)), [len(face) - 2 for face in corners])
         self.face = {name: np.array(column) for name, column in columns.items()}
 
+    @classmethod
+    def of(cls, points, triangles):
+        """A mesh without further columns."""
+        mesh = cls.__new__(cls)
+        mesh.points, mesh.triangles = points, triangles
+        return mesh
+
     def write(self, path, **columns):
         """The positions and triangles, with further columns of the vertices."""
         names = ["x", "y", "z", *columns]
@@ -61,6 +68,30 @@ def ramp(values, low, high):
     first = np.minimum(place.astype(int), len(RAMP) - 2)
     colours = RAMP[first] + (place - first)[:, None] * (RAMP[first + 1] - RAMP[first])
     return np.where(np.isnan(values)[:, None], MISSING, colours)
+
+
+def voxel_faces(mask, spacing):
+    """The faces of voxels between inside and outside, each as two triangles, turned outwards."""
+    mask = np.pad(mask, 1)
+    quads = []
+    for axis in range(3):
+        change = np.diff(mask.astype(int), axis=axis)
+        second, third = np.eye(3, dtype=int)[(axis + 1) % 3], np.eye(3, dtype=int)[(axis + 2) % 3]
+        for sign, around in (-1, (0, second, second + third, third)), (1, (0, third, second + third, second)):
+            corner = np.argwhere(change == sign) + np.eye(3, dtype=int)[axis]
+            quads.append(np.stack([corner + step for step in around], axis=1))
+    places, corners = np.unique(np.concatenate(quads).reshape(-1, 3), axis=0, return_inverse=True)
+    corners = corners.reshape(-1, 4)
+    return Mesh.of(places * np.array(spacing), np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]]))
+
+
+def height_grid(heights, spacing):
+    n, m = heights.shape
+    x, y = np.meshgrid(spacing * np.arange(n), spacing * np.arange(m), indexing="ij")
+    at = np.arange(n * m).reshape(n, m)
+    a, b, c, d = at[:-1, :-1].ravel(), at[1:, :-1].ravel(), at[1:, 1:].ravel(), at[:-1, 1:].ravel()
+    return Mesh.of(np.stack([x, y, heights], axis=-1).reshape(-1, 3).astype(float),
+                   np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)]))
 
 
 class View:
@@ -190,9 +221,35 @@ class Gallery:
         self.surface("terrain", "generate triangles terrain.ply --vertices 10000 --noise 0.5",
                      "smooth terrain.ply smooth.ply --preset terrain", -1.0, 0.7)
 
+    def slices(self):
+        """A kidney with its vessel, in slices five times as thick as pixels are wide."""
+        spacing = (0.5, 0.5, 2.5)
+        x, y, z = (step * (np.arange(n) - n / 2 + 0.3) for step, n in zip(spacing, (100, 80, 12)))
+        x, y, z = np.meshgrid(x, y, z, indexing="ij")
+        body = (x / 22) ** 2 + ((y - 3 + 0.018 * x**2) / 9.5) ** 2 + (z / 9.5) ** 2
+        dent = np.exp(-((x / 6) ** 2 + ((y + 6) / 6) ** 2 + (z / 9) ** 2))
+        vessel = np.hypot(x - 3 * np.sin(0.25 * y), z)
+        inside = (body + dent < 1) | ((vessel < 3.1) & (np.abs(y + 8.5) < 9.5))
+        self.smooth_own("slices", voxel_faces(inside, spacing), -1.15, 0.6)
+
+    def heights(self):
+        """Hills and a valley, 1 m between points, heights in whole metres."""
+        x, y = np.meshgrid(np.linspace(-1, 1, 80), np.linspace(-1, 1, 80), indexing="ij")
+        hills = 14 * np.exp(-((x + 0.35) ** 2 + (y - 0.35) ** 2) / 0.25)
+        hills += 9 * np.exp(-((x - 0.55) ** 2 + (y + 0.05) ** 2) / 0.15)
+        valley = 6 * np.exp(-((y + 0.5 - 0.25 * np.sin(2.5 * x)) ** 2) / 0.05)
+        heights = np.round(hills - valley + 2 * x + 2 * np.sin(4 * y))
+        self.smooth_own("heights", height_grid(heights, 1), 0.4, 0.6)
+
+    def smooth_own(self, name, mesh, turn, height):
+        mesh.write(self.folder / f"{name}.ply")
+        self.run(f"smooth {name}.ply smooth.ply")
+        after = self.read("smooth.ply")
+        self.save(name, View(mesh.points, turn, height), self.clay(mesh), self.clay(after))
+
     def labels(self):
         self.run("generate bubbles cells.ply --vertices 12000")
-        self.run("smooth cells.ply smooth.ply --radius 6%")
+        self.run("smooth cells.ply smooth.ply")
         before, after = self.read("cells.ply"), self.read("smooth.ply")
         cell = np.maximum(before.face["front"], before.face["back"])[before.face_of]
         colours = np.array([[0, 0, 0], [196, 120, 96], [120, 160, 200], [150, 180, 120]], float)[cell]
@@ -246,7 +303,7 @@ class Gallery:
 
 
 def main():
-    names = ["scan", "part", "knob", "terrain", "labels", "field", "distances", "region", "cut"]
+    names = ["scan", "part", "knob", "terrain", "heights", "slices", "labels", "field", "distances", "region", "cut"]
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {' '.join(names)} [all]")
     parser.add_argument("--programs", type=pathlib.Path, default=pathlib.Path("build/bin"))

@@ -30,10 +30,10 @@ inline float decay(float x)
 
 }  // namespace
 
-FaceAverages::FaceAverages(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
+FaceAverages::FaceAverages(const PolygonMesh& mesh, const Topology& topology, const Executor& exec, Sheets sheets)
     : mesh_(&mesh)
     , topology_(&topology)
-    , neighbours_(make_face_neighbours(mesh, topology, exec))
+    , neighbours_(make_face_neighbours(mesh, topology, exec, sheets))
     , signs_(face_signs(mesh, topology))
     , areas_(usize(mesh.n_faces()))
     , near_(neighbours_.faces.size())

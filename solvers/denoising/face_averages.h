@@ -38,8 +38,9 @@ class FaceAverages {
   public:
     /// Prepares the neighbours. `measure` must be called before anything is averaged.
     /// @param mesh its vertices are not used. @param topology with twins, which are not needed later. Both must outlive
-    /// the object.
-    FaceAverages(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
+    /// the object. @param sheets over which faces averages reach.
+    FaceAverages(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially,
+                 Sheets sheets = Sheets::All);
 
     /// Computes areas and centroids at these positions, #V by 3.
     void measure(const Points& positions, const Executor& exec = run_serially);

@@ -61,18 +61,30 @@ class CrowdedFans {
     std::vector<FanCorner> fan_corners_;
 };
 
+/// Appends the faces of the fan in which a corner is.
+void append_fan(const PolygonMesh& mesh, const Topology& topology, Index corner, std::vector<Index>& list)
+{
+    for (const Fan& fan : fans_at(mesh, topology, mesh.face_vertices[corner], {}, 0))
+        if (std::ranges::find(fan.corners, corner) != fan.corners.end())
+            for (const Index other : fan.corners)
+                list.push_back(topology.face_of[other]);
+}
+
 /// Replaces `list` by the neighbours of face f (see FaceNeighbours): ascending, distinct, without f.
-void list_neighbours(const PolygonMesh& mesh, const Topology& topology, const CrowdedFans& crowded, Index f,
-                     std::vector<Index>& list)
+void list_neighbours(const PolygonMesh& mesh, const Topology& topology, const CrowdedFans& crowded, Sheets sheets,
+                     Index f, std::vector<Index>& list)
 {
     list.clear();
     for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h) {
-        const auto corners = topology.corners_at(mesh.face_vertices[h]);
-        if (corners.size() <= FaceNeighbours::most_at_vertex)
+        const Index v = mesh.face_vertices[h];
+        const auto corners = topology.corners_at(v);
+        if (corners.size() > FaceNeighbours::most_at_vertex)
+            crowded.append_spaced(h, list);
+        else if (sheets == Sheets::Own && topology.kind[v] != VertexKind::Interior)
+            append_fan(mesh, topology, h, list);
+        else
             for (const Index corner : corners)
                 list.push_back(topology.face_of[corner]);
-        else
-            crowded.append_spaced(h, list);
         if (topology.twin[h] >= 0)
             list.push_back(topology.face_of[topology.twin[h]]);
     }
@@ -82,13 +94,14 @@ void list_neighbours(const PolygonMesh& mesh, const Topology& topology, const Cr
 
 }  // namespace
 
-FaceNeighbours make_face_neighbours(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
+FaceNeighbours make_face_neighbours(const PolygonMesh& mesh, const Topology& topology, const Executor& exec,
+                                    Sheets sheets)
 {
     const CrowdedFans crowded(mesh, topology, exec);
     FaceNeighbours neighbours;
     make_lists_in_parallel(
         exec, mesh.n_faces(),
-        [&](Index f, std::vector<Index>& list) { list_neighbours(mesh, topology, crowded, f, list); },
+        [&](Index f, std::vector<Index>& list) { list_neighbours(mesh, topology, crowded, sheets, f, list); },
         neighbours.offsets, neighbours.faces);
     return neighbours;
 }

@@ -27,10 +27,18 @@ struct FaceNeighbours {
     }
 };
 
+/// Which faces that share a vertex are neighbours.
+enum class Sheets : std::uint8_t {
+    /// All of them.
+    All,
+    /// Those of the same fan: no face of another sheet, where several meet, and none of another body that touches.
+    Own,
+};
+
 /// The neighbours of all faces.
 /// @param topology with twins.
 FaceNeighbours make_face_neighbours(const PolygonMesh& mesh, const Topology& topology,
-                                    const Executor& exec = run_serially);
+                                    const Executor& exec = run_serially, Sheets sheets = Sheets::All);
 
 /// 1 or -1 per face: vector areas times these signs point to the same side wherever faces share an edge; on a one-sided
 /// surface, not everywhere. Empty if vector areas already do so.

@@ -19,6 +19,9 @@ class KeptVolumes {
     KeptVolumes(const PolygonMesh& mesh, const Topology& topology, const Components& components,
                 const Points& positions, const Executor& exec);
 
+    /// Lets restore leave a vertex where it is.
+    void hold(Index vertex) { component_of_[vertex] = -1; }
+
     /// Moves the vertices of each component along their normals, all by the same length, as far as their boxes allow,
     /// so that the volume comes nearer to that which is kept. Components that enclose no volume stay.
     void restore(const Boxes& boxes, Points& positions, const Executor& exec) const;
@@ -35,7 +38,8 @@ class KeptVolumes {
     const Components& components_;
     /// Per component: the volume that is kept; 0 for components that enclose none.
     std::vector<double> kept_;
-    /// #V: the component of the faces of each vertex; -1 at vertices without faces, and where several components meet.
+    /// #V: the component of the faces of each vertex; -1 at vertices without faces, where several components meet,
+    /// and at those that are held.
     std::vector<Index> component_of_;
 };
 

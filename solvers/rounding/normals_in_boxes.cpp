@@ -27,15 +27,15 @@ double total_bending(const std::vector<double>& of_parts)
 
 }  // namespace
 
-NormalsInBoxes::NormalsInBoxes(const PolygonMesh& mesh, const Topology& topology, const Components& components,
-                               const SurfaceParts& parts, const Boxes& boxes, const Executor& exec)
+NormalsInBoxes::NormalsInBoxes(const PolygonMesh& mesh, const Topology& topology, const SurfaceParts& parts,
+                               const KeptVolumes& volumes, const Boxes& boxes, const Executor& exec)
     : mesh_(mesh)
     , topology_(topology)
     , parts_(parts)
+    , volumes_(volumes)
     , boxes_(boxes)
     , exec_(exec)
-    , averages_(mesh, topology, exec)
-    , volumes_(mesh, topology, components, boxes.middles, exec)
+    , averages_(mesh, topology, exec, Sheets::Own)
 {
 }
 

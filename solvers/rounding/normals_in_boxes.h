@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "partition/connected_components.h"
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
@@ -15,7 +14,7 @@ namespace seamflow {
 
 /// The neighbours over which normals are averaged.
 enum class NormalNeighbours {
-    /// All of them: the surface becomes smooth everywhere.
+    /// All of them on the same sheet: the surface becomes smooth everywhere.
     All,
     /// Those with nearly the same normals: edges are kept.
     SameSideOfEdge,
@@ -25,10 +24,10 @@ enum class NormalNeighbours {
 /// allow, and restores volumes, again and again.
 class NormalsInBoxes {
   public:
-    /// @param mesh its vertices are not used. @param components those of its faces. @param parts of the same mesh. All
-    /// must outlive the object.
-    NormalsInBoxes(const PolygonMesh& mesh, const Topology& topology, const Components& components,
-                   const SurfaceParts& parts, const Boxes& boxes, const Executor& exec);
+    /// @param mesh its vertices are not used. @param parts of the same mesh. @param volumes those that are restored.
+    /// All must outlive the object.
+    NormalsInBoxes(const PolygonMesh& mesh, const Topology& topology, const SurfaceParts& parts,
+                   const KeptVolumes& volumes, const Boxes& boxes, const Executor& exec);
 
     /// Smooths in groups of rounds, until a group makes the surface bend hardly less.
     /// @param positions #V by 3: in the boxes; replaced.
@@ -54,10 +53,10 @@ class NormalsInBoxes {
     const PolygonMesh& mesh_;
     const Topology& topology_;
     const SurfaceParts& parts_;
+    const KeptVolumes& volumes_;
     const Boxes& boxes_;
     const Executor& exec_;
     FaceAverages averages_;
-    KeptVolumes volumes_;
     /// #F: the averaged normals, and memory for averages.
     FaceVectors normals_;
     FaceVectors means_;

@@ -13,8 +13,11 @@
 #include "partition/metrics/vertex_distance.h"
 #include "solvers/denoising/vertex_averages.h"
 #include "solvers/rounding/coordinate_bounds.h"
+#include "solvers/rounding/joined_copies.h"
+#include "solvers/rounding/kept_volumes.h"
 #include "solvers/rounding/normals_in_boxes.h"
 #include "solvers/rounding/surface_parts.h"
+#include "solvers/rounding/uncrossed_faces.h"
 
 namespace seamflow {
 
@@ -124,19 +127,23 @@ CoordinateBounds bounds_for(const PolygonMesh& mesh, const Topology& topology, c
 /// The surface within bounds that bends less of the two, for each part.
 class SmootherSurface {
   public:
-    SmootherSurface(const PolygonMesh& mesh, const Topology& topology, const Boxes& boxes, const Executor& exec)
-        : boxes_(boxes)
+    /// @param components those of the faces. @param volumes those that are kept. All must outlive the object.
+    SmootherSurface(const PolygonMesh& mesh, const Topology& topology, const Components& components,
+                    const KeptVolumes& volumes, const Boxes& boxes, const Executor& exec)
+        : mesh_(mesh)
+        , topology_(topology)
+        , boxes_(boxes)
         , exec_(exec)
-        , components_(face_components(mesh, topology))
-        , parts_(mesh, topology, components_)
-        , normals_(mesh, topology, components_, parts_, boxes_, exec)
+        , parts_(mesh, topology, components)
+        , normals_(mesh, topology, parts_, volumes, boxes_, exec)
     {
     }
 
     /// Smooths normals. @param positions #V by 3: in the boxes; replaced.
     void smooth(Points& positions)
     {
-        Points with_edges = positions;
+        const Points fair = positions;
+        Points with_edges = fair;
         bending_ = normals_.smooth(NormalNeighbours::All, positions);
         const std::vector<double> of_edges = normals_.smooth(NormalNeighbours::SameSideOfEdge, with_edges, bending_);
         std::vector<std::uint8_t> taken(bending_.size(), 0);
@@ -146,6 +153,7 @@ class SmootherSurface {
                 bending_[part] = of_edges[part];
             }
         take(parts_, taken, with_edges, positions, exec_);
+        uncross_faces(mesh_, topology_, fair, boxes_, positions, exec_);
     }
 
     /// Puts parts back whose roughness the rounding does not explain. @param positions the result of `smooth`.
@@ -164,14 +172,64 @@ class SmootherSurface {
     }
 
   private:
+    const PolygonMesh& mesh_;
+    const Topology& topology_;
     Boxes boxes_;
     const Executor& exec_;
-    Components components_;
     SurfaceParts parts_;
     NormalsInBoxes normals_;
     /// The bending of each part of the smoothed surface.
     std::vector<double> bending_;
 };
+
+/// A surface within bounds, of which all parts move, or those whose roughness the rounding explains.
+/// @param neighbours #V: the vertices that share an edge with each vertex. @param motion which steps are given.
+/// @returns nothing if no part moves.
+std::optional<SmoothedWithinSteps> smooth_within(const PolygonMesh& mesh, const Topology& topology,
+                                                 const Components& components, const KeptVolumes& volumes,
+                                                 const IndexLists& neighbours, const Points& positions,
+                                                 const CoordinateBounds& bounds, const RoundedMotion& motion,
+                                                 const Executor& exec)
+{
+    const Boxes boxes{positions, bounds.widths};
+    SmoothedWithinSteps result{.positions = positions, .steps = bounds.steps};
+    const double smallest_step = (bounds.steps.array() > 0.0).select(bounds.steps, bounds.steps.maxCoeff()).minCoeff();
+    if (begins_with_fairing(bounds))
+        result.fairing =
+            fair_in_boxes(neighbours, boxes, {most_iterations, last_motion * smallest_step}, result.positions, exec);
+    result.fairing.last_motion /= smallest_step;
+    SmootherSurface smoother(mesh, topology, components, volumes, boxes, exec);
+    smoother.smooth(result.positions);
+    if (!motion.given_steps && !smoother.keep_explained(bounds, result.positions))
+        return std::nullopt;
+    return result;
+}
+
+/// Smooths a surface whose components touch: copies of a vertex move as one.
+/// @param volumes of the components.
+std::optional<SmoothedWithinSteps> smooth_joined(const JoinedCopies& joined, KeptVolumes& volumes,
+                                                 const Points& positions, CoordinateBounds bounds,
+                                                 const RoundedMotion& motion, const Executor& exec)
+{
+    const std::vector<Index>& original_of = joined.original_of;
+    const auto n = static_cast<Index>(original_of.size());
+    for (Index v = 0; v < n; ++v)
+        if (const Index original = original_of[v]; original != v) {
+            volumes.hold(original);
+            bounds.widths.row(original) = bounds.widths.row(original).cwiseMin(bounds.widths.row(v));
+        }
+    Topology topology = make_topology(joined.mesh, exec);
+    free_junctions(joined.mesh, topology, exec);
+    std::optional<SmoothedWithinSteps> result =
+        smooth_within(joined.mesh, topology, face_components(joined.mesh, topology), volumes,
+                      VertexAverages(joined.mesh, topology, exec).neighbours(), positions, bounds, motion, exec);
+    if (result)
+        for_each(exec, n, [&](Index v) {
+            if (const Index original = original_of[v]; original != v)
+                result->positions.row(v) = result->positions.row(original);
+        });
+    return result;
+}
 
 }  // namespace
 
@@ -179,26 +237,23 @@ std::optional<SmoothedWithinSteps> smooth_rounded(const PolygonMesh& mesh, const
                                                   const Points& positions, const RoundedMotion& motion,
                                                   const Executor& exec)
 {
-    SmoothedWithinSteps result{.spikes = find_spikes(mesh, positions, exec)};
-    const Points filled = result.spikes.empty() ? positions : without_spikes(mesh, topology, result.spikes, positions);
+    std::vector<Spike> spikes = find_spikes(mesh, positions, exec);
+    const Points filled = spikes.empty() ? positions : without_spikes(mesh, topology, spikes, positions);
     const IndexLists neighbours = VertexAverages(mesh, topology, exec).neighbours();
     const CoordinateBounds bounds = bounds_for(mesh, topology, neighbours, filled, motion, exec);
     if (bounds.kind == CoordinateBounds::Kind::None || (!motion.given_steps && bounds.widths.isZero(0.0)))
         return std::nullopt;
-    const Boxes boxes{filled, bounds.widths};
-    result.steps = bounds.steps;
-    result.positions = filled;
-    const double smallest_step = (bounds.steps.array() > 0.0).select(bounds.steps, bounds.steps.maxCoeff()).minCoeff();
-    if (begins_with_fairing(bounds))
-        result.fairing =
-            fair_in_boxes(neighbours, boxes, {most_iterations, last_motion * smallest_step}, result.positions, exec);
-    result.fairing.last_motion /= smallest_step;
-    SmootherSurface smoother(mesh, topology, boxes, exec);
-    smoother.smooth(result.positions);
-    if (!motion.given_steps && !smoother.keep_explained(bounds, result.positions))
+    const Components components = face_components(mesh, topology);
+    const std::optional<JoinedCopies> joined = join_copies(mesh, topology, components, filled, exec);
+    KeptVolumes volumes(joined ? joined->all_faces : mesh, topology, components, filled, exec);
+    std::optional<SmoothedWithinSteps> result =
+        joined ? smooth_joined(*joined, volumes, filled, bounds, motion, exec)
+               : smooth_within(mesh, topology, components, volumes, neighbours, filled, bounds, motion, exec);
+    if (!result)
         return std::nullopt;
-    for (const Spike& spike : result.spikes)
-        result.positions.row(spike.vertex) = positions.row(spike.vertex);
+    for (const Spike& spike : spikes)
+        result->positions.row(spike.vertex) = positions.row(spike.vertex);
+    result->spikes = std::move(spikes);
     return result;
 }
 

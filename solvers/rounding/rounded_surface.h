@@ -39,7 +39,9 @@ struct SmoothedWithinSteps {
 /// in the boxes (see fair_in_boxes), but for marching cubes of equal steps: there edges are about as long as steps, and
 /// the umbrella would pull vertices along the surface rather than smooth it. Then normals are averaged again and again,
 /// and vertices fitted to them within the bounds, in two ways: over all neighbours, and over those on the same side of
-/// an edge. Of the two surfaces, the one that bends less is the result, and the first if both bend alike.
+/// an edge; not over other sheets. Of the two surfaces, the one that bends less is the result, and the first if both
+/// bend alike. Where components touch, copies of a vertex move as one (see join_copies), and no faces cross beside
+/// lines and sharp edges that did not (see uncross_faces).
 ///
 /// Steps that are found explain the roughness of a component if within half a step it bends much less, and only few
 /// vertices would have to go further. On noise, which goes beyond half a step, and on shapes with edges at whole

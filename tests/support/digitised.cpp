@@ -144,6 +144,31 @@ PolygonMesh voxel_faces(const Inside& inside, Index n)
     return mesh;
 }
 
+PolygonMesh wall_faces(const Materials& material, Index n)
+{
+    const Inside everywhere = [](const Point&) { return true; };
+    const Lattice lattice{everywhere, n, Point::Ones()};
+    const auto material_of = [&](const Cell& cell) { return lattice.has(cell) ? material(lattice.place(cell)) : 0; };
+    PolygonMesh mesh;
+    Vertices<Cell> vertices;
+    for_each_cell(-1, n, [&](const Cell& cell) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            Cell next = cell;
+            ++next[axis];
+            if (material_of(cell) == material_of(next))
+                continue;
+            std::vector<Index> face;
+            for (const Cell& corner : face_of_cube(axis, 1)) {
+                const Cell at = plus(cell, corner);
+                face.push_back(vertices.number_of(at, lattice.place(at) - Point::Constant(0.5)));
+            }
+            mesh.add_face(face);
+        }
+    });
+    mesh.vertices = vertices.points();
+    return mesh;
+}
+
 PolygonMesh crossed_edges(const Inside& inside, Index n, const Point& spacing)
 {
     const Lattice lattice{inside, n, spacing};

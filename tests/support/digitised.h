@@ -13,6 +13,13 @@ using Inside = std::function<bool(const Point& point)>;
 /// quads, turned outwards. Coordinates are multiples of 1, plus a half if n is odd.
 PolygonMesh voxel_faces(const Inside& inside, Index n);
 
+/// The material at a point; 0 outside of all.
+using Materials = std::function<Index(const Point& point)>;
+
+/// The faces of the unit cubes, of n by n by n around the origin, between different materials: each face once, with all
+/// others on one mesh. Beyond the cubes the material is 0.
+PolygonMesh wall_faces(const Materials& material, Index n);
+
 /// The surface of marching cubes between points of a lattice of n by n by n, of which some are inside: one polygon for
 /// each piece of the surface in a cube, turned outwards; its corners are the middles of the edges of the cube that
 /// cross the surface.

@@ -15,12 +15,13 @@
 using namespace seamflow;
 using test::ball;
 using test::same_bits;
+using test::voxel_faces;
 
 namespace {
 
 PolygonMesh voxel_ball()
 {
-    return test::voxel_faces(ball(7.3), 20);
+    return voxel_faces(ball(7.3), 20);
 }
 
 DenoiseOptions with_rounding(const Rounding& rounding)
@@ -91,6 +92,38 @@ TEST_CASE("rounded coordinates: vertices that are held stay, also those of featu
          {Index{3}, Index{4}, mesh.face(20)[0], mesh.face(20)[1], mesh.face(20)[2], mesh.n_vertices() - 1})
         CHECK(same_bits(mesh.vertices.row(v), before.vertices.row(v)));
     CHECK(furthest(mesh, before) > 0.3);
+}
+
+TEST_CASE("rounded coordinates: segments with a wall of their own each keep together, and sheets move with their lines")
+{
+    const auto left = [](const Point& point) { return point.norm() < 7.3 && point.x() + 0.4 * point.y() < 0.3; };
+    const auto right = [=](const Point& point) { return point.norm() < 7.3 && !left(point); };
+    PolygonMesh segments = test::together({voxel_faces(left, 20), voxel_faces(right, 20)});
+    const PolygonMesh before = segments;
+    const DenoiseReport report = denoise_in_place(segments);
+    REQUIRE(report.rounding);
+    CHECK_FALSE(names(report.remarks, "limited loss"));
+    CHECK(furthest(segments, before) <= 0.5);
+    const Index n_left = voxel_faces(left, 20).n_vertices();
+    int n_shared = 0;
+    for (Index v = 0; v < n_left; ++v)
+        for (Index w = n_left; w < before.n_vertices(); ++w)
+            if (before.vertices.row(v) == before.vertices.row(w)) {
+                ++n_shared;
+                CHECK(same_bits(segments.vertices.row(v), segments.vertices.row(w)));
+            }
+    CHECK(n_shared > 100);
+
+    PolygonMesh walls =
+        test::wall_faces([&](const Point& point) { return left(point)    ? 1
+                                                          : right(point) ? 2
+                                                                         : 0; }, 20);
+    const PolygonMesh walls_before = walls;
+    const DenoiseReport of_walls = denoise_in_place(walls);
+    REQUIRE(of_walls.rounding);
+    CHECK(of_walls.mesh.junction_vertices > 30);
+    CHECK(furthest(walls, walls_before) <= 0.5);
+    CHECK(((walls.vertices - walls_before.vertices).rowwise().norm().array() > 0.0).all());
 }
 
 TEST_CASE("rounded coordinates: the same bits on any number of threads, after a resumption, and in later steps")

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "solvers/normals/face_neighbours.h"
+#include "tests/support/test_meshes.h"
 
 using namespace seamflow;
 
@@ -51,4 +52,27 @@ TEST_CASE("up to some valence all faces at a vertex are neighbours")
     const FaceNeighbours neighbours = make_face_neighbours(mesh, make_topology(mesh));
     for (Index f = 0; f < mesh.n_faces(); ++f)
         CHECK(neighbours[f].size() == FaceNeighbours::most_at_vertex - 1);
+}
+
+TEST_CASE("on their own sheet, faces have no neighbours across lines of several sheets and touching points")
+{
+    const PolygonMesh wings = test::three_wings();
+    const PolygonMesh glass = test::hourglass();
+    Topology freed = make_topology(wings);
+    free_junctions(wings, freed);
+    for (const Topology& topology : {make_topology(wings), freed}) {
+        const FaceNeighbours all = make_face_neighbours(wings, topology);
+        const FaceNeighbours own = make_face_neighbours(wings, topology, run_serially, Sheets::Own);
+        for (Index f = 0; f < wings.n_faces(); ++f) {
+            CHECK(all[f].size() == 2);
+            CHECK(own[f].empty());
+        }
+    }
+    const FaceNeighbours own = make_face_neighbours(glass, make_topology(glass), run_serially, Sheets::Own);
+    for (Index f = 0; f < glass.n_faces(); ++f)
+        CHECK(own[f].size() == 3);
+    // Elsewhere they are the same.
+    const PolygonMesh torus = test::quad_torus(7, 5);
+    CHECK(make_face_neighbours(torus, make_topology(torus), run_serially, Sheets::Own).faces ==
+          make_face_neighbours(torus, make_topology(torus)).faces);
 }

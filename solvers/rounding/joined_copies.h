@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "partition/connected_components.h"
+#include "partition/executor.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// A surface in which components that touch, such as closed segments that each have their own copy of the wall between
+/// them, share vertices.
+struct JoinedCopies {
+    /// Its vertices have the numbers of those of the surface; copies have no faces. Faces that are the same now are
+    /// there once.
+    PolygonMesh mesh;
+    /// The same with all faces, in the order of those of the surface.
+    PolygonMesh all_faces;
+    /// #V: the vertex of which each one is a copy; its own number for others.
+    std::vector<Index> original_of;
+};
+
+/// Joins vertices of different components at the same place, where edges of these components lie on each other. Where a
+/// component has several vertices at a place, none are joined.
+/// @param topology with twins. @param components of the faces. @param positions #V by 3.
+/// @returns nothing if there are no copies.
+std::optional<JoinedCopies> join_copies(const PolygonMesh& mesh, const Topology& topology, const Components& components,
+                                        const Points& positions, const Executor& exec = run_serially);
+
+}  // namespace seamflow
