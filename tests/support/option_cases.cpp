@@ -148,6 +148,11 @@ const std::vector<OptionCase>& option_cases()
         {"reference", "yes", sweeps([](O& o) { o.report.reference = true; })},
         {"keep_edges", "30", plain([](O& o) { o.keep_edges = 30.0, o.accuracy.tolerance.reset(); })},
         {"denoise", "yes", plain([](O& o) { o.denoise = true, o.accuracy.tolerance.reset(), o.steps = 1; })},
+        {"rounded", "given",
+         [](O& o, const PolygonMesh&, double edge) {
+             o.denoise = true, o.accuracy.tolerance.reset(), o.steps = 1;
+             o.rounded = {Rounding::Kind::Given, Point::Constant(0.2 * edge)};
+         }},
         {"feature_edges", "some",
          [](O& o, const PolygonMesh& mesh, double) {
              o.keep_edges = 60.0, o.accuracy.tolerance.reset();

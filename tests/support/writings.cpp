@@ -21,7 +21,8 @@ int power_of_length(std::string_view field)
                                                         {"weld", 1},          {"within", 1},
                                                         {"feather", 1},       {"attachment_radius", 1},
                                                         {"attachment", -2},   {"attachment_weights", -2},
-                                                        {"limit_of_move", 1}, {"limit_of_slide", 1}};
+                                                        {"limit_of_move", 1}, {"limit_of_slide", 1},
+                                                        {"rounded", 1}};
     const auto found = powers.find(field);
     return found == powers.end() ? 0 : found->second;
 }
@@ -43,6 +44,7 @@ struct Translation {
         if (length && !length->of_diagonal)
             length->value *= factor;
     }
+    void operator()(Rounding& rounding) const { rounding.steps *= factor; }
     void operator()(MotionDirection& direction) const { direction.vector *= w.turn.transpose(); }
     void operator()(std::vector<double>& of_vertices) const
     {

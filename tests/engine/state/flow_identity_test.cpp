@@ -49,7 +49,11 @@ TEST_CASE("a flow that differs in any one option, coordinate or corner has anoth
         CAPTURE(one.name());
         const auto traits = std::ranges::find(all_options(), one.field, &OptionTraits::field);
         const bool enters_result = traits == all_options().end() || (traits->concerns & concern::no_result) == 0;
-        CHECK(identities.insert(identity_of(mesh, with_option_of(one, options, mesh))).second == enters_result);
+        AllOptions with_option = with_option_of(one, options, mesh);
+        // Only where noise is removed, coordinates count as rounded.
+        if (one.field == "rounded")
+            with_option.denoise = true;
+        CHECK(identities.insert(identity_of(mesh, with_option)).second == enters_result);
     }
     for (const Eigen::Index i : {0, 7, 47}) {
         PolygonMesh other = mesh;
