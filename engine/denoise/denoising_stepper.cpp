@@ -139,17 +139,24 @@ void DenoisingStepper::remove_noise(const Points& before, const Executor& exec)
     } else {
         positions_ = denoiser_.denoise(before, strengths_, exec);
     }
-    if (!noise_)
-        noise_ = denoiser_.noise();
+    if (noise_)
+        return;
+    noise_ = denoiser_.noise();
+    spikes_ = denoiser_.spikes();
 }
 
 void DenoisingStepper::save(StepMemory& memory) const
 {
     memory.positions = positions_;
-    if (noise_)
-        memory.numbers = {noise_->deviation,      noise_->edge,           noise_->part,
-                          noise_->rim_vertices,   noise_->kept.vertices,  noise_->kept.height,
-                          noise_->kept.place.x(), noise_->kept.place.y(), noise_->kept.place.z()};
+    if (!noise_)
+        return;
+    memory.numbers = {noise_->deviation,      noise_->edge,           noise_->part,
+                      noise_->rim_vertices,   noise_->kept.vertices,  noise_->kept.height,
+                      noise_->kept.place.x(), noise_->kept.place.y(), noise_->kept.place.z()};
+    memory.numbers.push_back(static_cast<double>(spikes_.size()));
+    for (const Spike& spike : spikes_)
+        memory.numbers.insert(memory.numbers.end(), {static_cast<double>(spike.vertex), spike.distance});
+    memory.numbers.push_back(rounded_ ? 1.0 : 0.0);
     if (rounded_)
         memory.numbers.insert(memory.numbers.end(), {rounded_->steps.x(), rounded_->steps.y(), rounded_->steps.z(),
                                                      static_cast<double>(rounded_->iterations), rounded_->last_motion});
@@ -164,8 +171,12 @@ void DenoisingStepper::restore(const StepMemory& memory)
     for (double* number : {&noise_->deviation, &noise_->edge, &noise_->part, &noise_->rim_vertices, &kept.vertices,
                            &kept.height, &kept.place.x(), &kept.place.y(), &kept.place.z()})
         *number = reader.number();
-    constexpr std::size_t of_noise = 9;
-    if (memory.numbers.size() > of_noise) {
+    spikes_.clear();
+    for (int n = reader.count(); n > 0; --n) {
+        const Index vertex = reader.count();
+        spikes_.push_back({vertex, reader.number()});
+    }
+    if (reader.count() != 0) {
         rounded_.emplace();
         for (double& step : rounded_->steps)
             step = reader.number();
@@ -180,8 +191,8 @@ void DenoisingStepper::report_to(DenoiseReport& report) const
     if (mesh_->n_faces() == 0 || !noise_)
         return;
     report.noise = {noise_->edge > 0.0 ? noise_->deviation / noise_->edge : 0.0, noise_->part};
-    if (!denoiser_.spikes().empty())
-        report.remarks.push_back(remark_on_spikes(denoiser_.spikes()));
+    if (!spikes_.empty())
+        report.remarks.push_back(remark_on_spikes(spikes_));
     const KeptStructure& kept = noise_->kept;
     if (kept.vertices > 0.0)
         report.remarks.push_back(
@@ -197,8 +208,6 @@ void DenoisingStepper::report_to(DenoiseReport& report) const
                           kept.vertices, kept.height, kept.place.x(), kept.place.y(), kept.place.z())}});
     if (rounded_) {
         const Point& steps = rounded_->steps;
-        if (!spikes_.empty())
-            report.remarks.push_back(remark_on_spikes(spikes_));
         report.rounding = rounded_;
         report.choices.push_back(
             {"rounded coordinates",

@@ -71,7 +71,7 @@ class DenoisingStepper final : public WholeMeshStepper {
     std::optional<SurfaceNoise> noise_;
     /// What the first step took for rounded.
     std::optional<RoundingReport> rounded_;
-    /// The spikes that stayed then.
+    /// The spikes that stayed in the first step.
     std::vector<Spike> spikes_;
 };
 

@@ -9,6 +9,7 @@
 #include "engine/denoise.h"
 #include "engine/state/flow_state.h"
 #include "partition/errors.h"
+#include "samples/meshes/random_numbers.h"
 #include "tests/support/digitised.h"
 #include "tests/support/flows.h"
 
@@ -42,6 +43,16 @@ bool names(const std::vector<Remark>& remarks, const std::string& kind)
 double furthest(const PolygonMesh& mesh, const PolygonMesh& before)
 {
     return (mesh.vertices - before.vertices).cwiseAbs().maxCoeff();
+}
+
+/// Whole heights, with one that stands for missing data.
+PolygonMesh heights_with_a_gap()
+{
+    PolygonMesh mesh = test::rounded(
+        test::height_grid(50, [](double x, double y) { return 6.0 * std::sin(x / 13.0) * std::cos(y / 17.0); }),
+        Point(0.0, 0.0, 1.0));
+    mesh.vertices(1225, 2) = -9999.0;
+    return mesh;
 }
 
 }  // namespace
@@ -178,10 +189,7 @@ TEST_CASE("rounded coordinates: vertices that move along an axis keep the bounds
 
 TEST_CASE("rounded coordinates: heights for missing data stay, and do not hide the others")
 {
-    PolygonMesh mesh = test::rounded(
-        test::height_grid(50, [](double x, double y) { return 6.0 * std::sin(x / 13.0) * std::cos(y / 17.0); }),
-        Point(0.0, 0.0, 1.0));
-    mesh.vertices(1225, 2) = -9999.0;
+    PolygonMesh mesh = heights_with_a_gap();
     const PolygonMesh before = mesh;
     const DenoiseReport report = denoise_in_place(mesh);
     REQUIRE(report.rounding);
@@ -189,4 +197,27 @@ TEST_CASE("rounded coordinates: heights for missing data stay, and do not hide t
     CHECK(same_bits(mesh.vertices.row(1225), before.vertices.row(1225)));
     CHECK(furthest(mesh, before) <= 0.5 + 1e-12);
     CHECK(std::abs(mesh.vertices(1226, 2) - before.vertices(1226, 2)) < 0.4);
+}
+
+TEST_CASE("what is said of heights for missing data is said after resumption, too, of rounded heights and of noise")
+{
+    PolygonMesh noisy = heights_with_a_gap();
+    RandomNumbers random(5);
+    for (Index v = 0; v < noisy.n_vertices(); ++v)
+        noisy.vertices(v, 2) += 2.0 * random.symmetric();
+    for (const PolygonMesh& mesh : {heights_with_a_gap(), noisy}) {
+        DenoiseOptions options;
+        options.steps = 2;
+        PolygonMesh whole = mesh;
+        std::shared_ptr<const FlowState> after_first;
+        const DenoiseReport report = denoise(whole, options, [&](const StepState& state) {
+            if (state.step == 1)
+                after_first = state.capture();
+        });
+        PolygonMesh resumed = mesh;
+        const DenoiseReport again = denoise(resumed, options, {}, {.resume = after_first});
+        CHECK(names(again.remarks, "spikes"));
+        CHECK(again.remarks == report.remarks);
+        CHECK(same_bits(resumed.vertices, whole.vertices));
+    }
 }
