@@ -28,9 +28,9 @@ struct RoundingReport {
 
 /// The report of denoise().
 struct DenoiseReport : RunReport {
-    /// Only of RemoveNoise, after the first step.
+    /// Only of RemoveNoise, after the first step. Of rounded surfaces, the noise of the other components, if any.
     std::optional<NoiseReport> noise;
-    /// Where the surface was smoothed within the rounding of its coordinates; there is no noise then.
+    /// Where the surface, or components of it, were smoothed within the rounding of their coordinates.
     std::optional<RoundingReport> rounding;
     /// dt of one step, in length²; 0 where the noise is the amount.
     double time_step = 0.0;

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "partition/errors.h"
 #include "partition/index_lists.h"
+#include "solvers/denoising/mesh_piece.h"
 #include "solvers/normals/feature_lines.h"
 
 namespace seamflow {
@@ -62,6 +64,7 @@ DenoisingStepper::DenoisingStepper(const PolygonMesh& mesh, const Topology& topo
     : mesh_(&mesh)
     , topology_(&topology)
     , rounding_(rounding_for(method, motion.direction))
+    , edge_angle_(method.edge_angle)
     , direction_(motion.direction)
     , on_feature_edges_(vertices_of(motion.feature_edges))
     , open_(cut_open(mesh, topology, motion.feature_edges, progress.exec()))
@@ -110,7 +113,29 @@ bool DenoisingStepper::smooth_within_steps(const Points& before, const Executor&
     noise_.emplace();
     spikes_ = std::move(smoothed->spikes);
     rounded_ = {smoothed->steps, smoothed->fairing.iterations, smoothed->fairing.last_motion};
+    const std::vector<std::uint8_t>& is_unexplained = smoothed->is_unexplained;
+    const std::vector<Index> faces = select(exec, is_unexplained.empty() ? 0 : mesh_->n_faces(), [&](Index f) {
+        return std::ranges::all_of(mesh_->face(f), [&](Index v) { return is_unexplained[v] != 0; });
+    });
+    if (!faces.empty())
+        remove_noise_of(faces, before, exec);
     return true;
+}
+
+void DenoisingStepper::remove_noise_of(const std::vector<Index>& faces, const Points& before, const Executor& exec)
+{
+    const MeshPiece piece = cut_out(*mesh_, *topology_, before, faces, exec);
+    const std::vector<double> of_all = rounded_motion().strengths;
+    std::vector<double> strengths;
+    if (!of_all.empty())
+        for (const Index v : piece.vertices)
+            strengths.push_back(of_all[v]);
+    MeshDenoiser denoiser(piece.mesh, piece.topology, exec, edge_angle_);
+    if (direction_.kind != MotionDirection::Kind::Any)
+        denoiser.keep_rims();
+    positions_(piece.vertices, Eigen::all) = denoiser.denoise(piece.mesh.vertices, strengths, exec);
+    noise_ = denoiser.noise();
+    noise_->part *= static_cast<double>(piece.vertices.size()) / static_cast<double>(mesh_->n_vertices());
 }
 
 void DenoisingStepper::step(const Points& before)
@@ -190,7 +215,9 @@ void DenoisingStepper::report_to(DenoiseReport& report) const
 {
     if (mesh_->n_faces() == 0 || !noise_)
         return;
-    report.noise = {noise_->edge > 0.0 ? noise_->deviation / noise_->edge : 0.0, noise_->part};
+    const bool has_noise = noise_->part > 0.0;
+    if (has_noise || !rounded_)
+        report.noise = {noise_->edge > 0.0 ? noise_->deviation / noise_->edge : 0.0, noise_->part};
     if (!spikes_.empty())
         report.remarks.push_back(remark_on_spikes(spikes_));
     const KeptStructure& kept = noise_->kept;
@@ -214,9 +241,7 @@ void DenoisingStepper::report_to(DenoiseReport& report) const
              {{"x", steps.x()}, {"y", steps.y()}, {"z", steps.z()}},
              {fmt::format("coordinates are rounded to {}: the smoothest surface within half a step",
                           steps_in_words(steps))}});
-        return;
     }
-    const bool has_noise = noise_->part > 0.0;
     if (noise_->rim_vertices > 0.0)
         report.choices.push_back(
             {"smooth rims",
@@ -224,7 +249,7 @@ void DenoisingStepper::report_to(DenoiseReport& report) const
              {fmt::format("noise or stairs of rims of {:.0f} vertices: removed; they became smooth curves{}",
                           noise_->rim_vertices, has_noise ? ";" : "")}});
     if (!has_noise) {
-        if (noise_->rim_vertices == 0.0 && kept.vertices == 0.0)
+        if (noise_->rim_vertices == 0.0 && kept.vertices == 0.0 && !rounded_)
             report.remarks.push_back(
                 {"no noise", {}, {"No noise was found: nothing is smoothed. Use <radius> to smooth anyway."}});
         return;

@@ -51,11 +51,16 @@ class DenoisingStepper final : public WholeMeshStepper {
     /// not rounded, or where rounding does not explain what is rough, and in further steps.
     bool smooth_within_steps(const Points& before, const Executor& exec);
 
+    /// Removes noise of components whose roughness rounding does not explain, beside those where it does.
+    /// @param faces those of these components, ascending.
+    void remove_noise_of(const std::vector<Index>& faces, const Points& before, const Executor& exec);
+
     void remove_noise(const Points& before, const Executor& exec);
 
     const PolygonMesh* mesh_;
     const Topology* topology_;
     Rounding rounding_;
+    double edge_angle_;
     MotionDirection direction_;
     /// Ascending.
     std::vector<Index> on_feature_edges_;
@@ -67,7 +72,7 @@ class DenoisingStepper final : public WholeMeshStepper {
     MeshDenoiser denoiser_;
     Points positions_;
     LoopCount loops_;
-    /// The noise before the first step.
+    /// The noise before the first step; of rounded surfaces, that of the other components.
     std::optional<SurfaceNoise> noise_;
     /// What the first step took for rounded.
     std::optional<RoundingReport> rounded_;

@@ -221,7 +221,7 @@ void add_flow(Json& json, const RunRecord& run, const AllOptions& options, const
         json["preset"] = run.preset;
     if (run.noise)
         json["noise"] = json_number(*run.noise);
-    if (report.noise && !report.rounding) {
+    if (report.noise) {
         json["noise"] = json_number(report.noise->deviation);
         json["noisy_part"] = json_number(report.noise->part);
     }

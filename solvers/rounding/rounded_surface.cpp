@@ -157,8 +157,9 @@ class SmootherSurface {
     }
 
     /// Puts parts back whose roughness the rounding does not explain. @param positions the result of `smooth`.
-    /// @returns whether it explains that of any.
-    [[nodiscard]] bool keep_explained(const CoordinateBounds& bounds, Points& positions) const
+    /// @returns #V: 1 at their vertices; empty if it explains that of no part.
+    [[nodiscard]] std::vector<std::uint8_t> put_back_unexplained(const CoordinateBounds& bounds,
+                                                                 Points& positions) const
     {
         const std::vector<double> before = normals_.bending(boxes_.middles);
         const std::vector<double> near = fractions_near_bounds(parts_, boxes_, bounds, positions);
@@ -167,8 +168,15 @@ class SmootherSurface {
         for (std::size_t part = 0; part < bending_.size(); ++part)
             if (!(before[part] > 0.0 && bending_[part] / before[part] + evidence.of(near[part]) <= evidence.most))
                 is_unexplained[part] = 1;
+        if (std::ranges::find(is_unexplained, 0) == is_unexplained.end())
+            return {};
         take(parts_, is_unexplained, boxes_.middles, positions, exec_);
-        return std::ranges::find(is_unexplained, 0) != is_unexplained.end();
+        std::vector<std::uint8_t> of_vertices(usize(mesh_.n_vertices()), 0);
+        for_each(exec_, mesh_.n_vertices(), [&](Index v) {
+            if (const Index part = parts_.of_vertex(v); part >= 0)
+                of_vertices[v] = is_unexplained[part];
+        });
+        return of_vertices;
     }
 
   private:
@@ -200,9 +208,10 @@ std::optional<SmoothedWithinSteps> smooth_within(const PolygonMesh& mesh, const 
     result.fairing.last_motion /= smallest_step;
     SmootherSurface smoother(mesh, topology, components, volumes, boxes, exec);
     smoother.smooth(result.positions);
-    if (!motion.given_steps && !smoother.keep_explained(bounds, result.positions))
-        return std::nullopt;
-    return result;
+    if (motion.given_steps)
+        return result;
+    result.is_unexplained = smoother.put_back_unexplained(bounds, result.positions);
+    return result.is_unexplained.empty() ? std::nullopt : std::optional(std::move(result));
 }
 
 /// Smooths a surface whose components touch: copies of a vertex move as one.
@@ -225,8 +234,11 @@ std::optional<SmoothedWithinSteps> smooth_joined(const JoinedCopies& joined, Kep
                       VertexAverages(joined.mesh, topology, exec).neighbours(), positions, bounds, motion, exec);
     if (result)
         for_each(exec, n, [&](Index v) {
-            if (const Index original = original_of[v]; original != v)
+            if (const Index original = original_of[v]; original != v) {
                 result->positions.row(v) = result->positions.row(original);
+                if (!result->is_unexplained.empty())
+                    result->is_unexplained[v] = result->is_unexplained[original];
+            }
         });
     return result;
 }

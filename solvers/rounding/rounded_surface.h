@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ struct SmoothedWithinSteps {
     Point steps = Point::Zero();
     /// The last motion is in smallest steps. Nothing for marching cubes of equal steps.
     FairingReport fairing = {};
+    /// #V: 1 at vertices of components whose roughness rounding does not explain, which stayed.
+    std::vector<std::uint8_t> is_unexplained = {};
     /// Vertices such as heights for missing data, which stayed.
     std::vector<Spike> spikes = {};
 };

@@ -9,9 +9,11 @@
 #include "engine/denoise.h"
 #include "engine/state/flow_state.h"
 #include "partition/errors.h"
+#include "samples/meshes/meshes.h"
 #include "samples/meshes/random_numbers.h"
 #include "tests/support/digitised.h"
 #include "tests/support/flows.h"
+#include "tests/support/test_meshes.h"
 
 using namespace seamflow;
 using test::ball;
@@ -65,8 +67,7 @@ TEST_CASE("denoise finds rounded coordinates, and reports them in place of noise
     CHECK((report.rounding->steps - Point::Ones()).cwiseAbs().maxCoeff() < 1e-9);
     CHECK(report.rounding->iterations > 10);
     CHECK(report.rounding->last_motion < 0.01);
-    REQUIRE(report.noise);
-    CHECK(report.noise->part == 0.0);
+    CHECK_FALSE(report.noise);
     CHECK(names(report.choices, "rounded coordinates"));
     CHECK_FALSE(names(report.remarks, "no noise"));
     CHECK(furthest(mesh, voxel_ball()) <= 0.5);
@@ -220,4 +221,29 @@ TEST_CASE("what is said of heights for missing data is said after resumption, to
         CHECK(again.remarks == report.remarks);
         CHECK(same_bits(resumed.vertices, whole.vertices));
     }
+}
+
+TEST_CASE("noise of a component beside rounded ones is removed as without these, and clean ones stay")
+{
+    PolygonMesh noisy = make_noisy_sphere(600, {.amplitude = 0.0, .noise = 0.3});
+    const PolygonMesh clean = make_noisy_sphere(300, {.amplitude = 0.0, .noise = 0.0});
+    const PolygonMesh rounded = voxel_faces(ball(14.3), 34);
+    PolygonMesh mesh = test::together({noisy, rounded, clean});
+    const PolygonMesh before = mesh;
+    const DenoiseReport report = denoise_in_place(mesh);
+    PolygonMesh without_rounded = test::together({noisy, clean});
+    const DenoiseReport alone = denoise_in_place(without_rounded);
+    REQUIRE(report.rounding);
+    REQUIRE(report.noise);
+    REQUIRE(alone.noise);
+    CHECK(alone.noise->part > 0.6);
+    const double share = static_cast<double>(without_rounded.n_vertices()) / static_cast<double>(mesh.n_vertices());
+    CHECK(std::abs(report.noise->part - share * alone.noise->part) < 1e-12);
+    CHECK(same_bits(mesh.vertices.topRows(noisy.n_vertices()), without_rounded.vertices.topRows(noisy.n_vertices())));
+    CHECK(same_bits(mesh.vertices.bottomRows(clean.n_vertices()), clean.vertices));
+    const Points moved = mesh.vertices - before.vertices;
+    CHECK(moved.middleRows(noisy.n_vertices(), rounded.n_vertices()).cwiseAbs().maxCoeff() <= 0.5 + 1e-12);
+    CHECK(moved.middleRows(noisy.n_vertices(), rounded.n_vertices()).cwiseAbs().maxCoeff() > 0.4);
+    CHECK(names(report.choices, "rounded coordinates"));
+    CHECK(names(report.choices, "noise"));
 }
