@@ -32,8 +32,8 @@ struct Rounding {
 /// Removes noise, as much as there is at each place: each step estimates the true normal of each face and how large the
 /// noise is there, and moves vertices to fit; along the normals, unless a face would fold. Edges, round parts and
 /// details stay, and where there is no noise, vertices stay bit for bit. One step is enough; further ones treat what is
-/// left as noise. On components whose roughness rounding explains, there is no noise to remove: the first step finds the
-/// smoothest surface whose coordinates are within half a step of the given ones.
+/// left as noise. On components whose roughness rounding explains, there is no noise to remove: the first step finds
+/// the smoothest surface whose coordinates are within half a step of the given ones.
 struct RemoveNoise {
     static constexpr double default_edge_angle = 30.0;
 

@@ -66,6 +66,8 @@ DenoisingStepper::DenoisingStepper(const PolygonMesh& mesh, const Topology& topo
     , rounding_(rounding_for(method, motion.direction))
     , edge_angle_(method.edge_angle)
     , direction_(motion.direction)
+    , joins_copies_(motion.weld.has_value())
+    , within_(motion.within ? std::optional(motion.within->value) : std::nullopt)
     , on_feature_edges_(vertices_of(motion.feature_edges))
     , open_(cut_open(mesh, topology, motion.feature_edges, progress.exec()))
     , strengths_(motion.strength)
@@ -98,6 +100,8 @@ RoundedMotion DenoisingStepper::rounded_motion() const
         motion.axes = (direction_.vector.array() != 0.0).cast<double>();
     if (rounding_.kind == Rounding::Kind::Given)
         motion.given_steps = rounding_.steps;
+    motion.joins_copies = joins_copies_;
+    motion.within = within_;
     return motion;
 }
 
@@ -113,19 +117,26 @@ bool DenoisingStepper::smooth_within_steps(const Points& before, const Executor&
     noise_.emplace();
     spikes_ = std::move(smoothed->spikes);
     rounded_ = {smoothed->steps, smoothed->fairing.iterations, smoothed->fairing.last_motion};
-    const std::vector<std::uint8_t>& is_unexplained = smoothed->is_unexplained;
-    const std::vector<Index> faces = select(exec, is_unexplained.empty() ? 0 : mesh_->n_faces(), [&](Index f) {
-        return std::ranges::all_of(mesh_->face(f), [&](Index v) { return is_unexplained[v] != 0; });
+    is_rounded_ = std::move(smoothed->is_smoothed);
+    const std::vector<Index> faces = select(exec, mesh_->n_faces(), [&](Index f) {
+        return std::ranges::all_of(mesh_->face(f), [&](Index v) { return is_rounded_[v] == 0; });
     });
     if (!faces.empty())
-        remove_noise_of(faces, before, exec);
+        remove_noise_of(faces, smoothed->is_copy, before, exec);
     return true;
 }
 
-void DenoisingStepper::remove_noise_of(const std::vector<Index>& faces, const Points& before, const Executor& exec)
+void DenoisingStepper::remove_noise_of(const std::vector<Index>& faces, const std::vector<std::uint8_t>& held,
+                                       const Points& before, const Executor& exec)
 {
     const MeshPiece piece = cut_out(*mesh_, *topology_, before, faces, exec);
-    const std::vector<double> of_all = rounded_motion().strengths;
+    std::vector<double> of_all = rounded_motion().strengths;
+    if (!held.empty()) {
+        of_all.resize(held.size(), 1.0);
+        for (std::size_t v = 0; v < held.size(); ++v)
+            if (held[v] != 0)
+                of_all[v] = 0.0;
+    }
     std::vector<double> strengths;
     if (!of_all.empty())
         for (const Index v : piece.vertices)
@@ -182,9 +193,13 @@ void DenoisingStepper::save(StepMemory& memory) const
     for (const Spike& spike : spikes_)
         memory.numbers.insert(memory.numbers.end(), {static_cast<double>(spike.vertex), spike.distance});
     memory.numbers.push_back(rounded_ ? 1.0 : 0.0);
-    if (rounded_)
-        memory.numbers.insert(memory.numbers.end(), {rounded_->steps.x(), rounded_->steps.y(), rounded_->steps.z(),
-                                                     static_cast<double>(rounded_->iterations), rounded_->last_motion});
+    if (!rounded_)
+        return;
+    memory.numbers.insert(memory.numbers.end(), {rounded_->steps.x(), rounded_->steps.y(), rounded_->steps.z(),
+                                                 static_cast<double>(rounded_->iterations), rounded_->last_motion});
+    memory.arrays.emplace_back(Points::Zero(mesh_->n_vertices(), 3));
+    for (Index v = 0; v < mesh_->n_vertices(); ++v)
+        memory.arrays.back()(v, 0) = is_rounded_[v];
 }
 
 void DenoisingStepper::restore(const StepMemory& memory)
@@ -198,7 +213,7 @@ void DenoisingStepper::restore(const StepMemory& memory)
         *number = reader.number();
     spikes_.clear();
     for (int n = reader.count(); n > 0; --n) {
-        const Index vertex = reader.count();
+        const Index vertex = reader.index(mesh_->n_vertices());
         spikes_.push_back({vertex, reader.number()});
     }
     if (reader.count() != 0) {
@@ -207,6 +222,10 @@ void DenoisingStepper::restore(const StepMemory& memory)
             step = reader.number();
         rounded_->iterations = reader.count();
         rounded_->last_motion = reader.number();
+        const Points& flags = reader.array(mesh_->n_vertices());
+        is_rounded_.resize(usize(mesh_->n_vertices()));
+        for (Index v = 0; v < mesh_->n_vertices(); ++v)
+            is_rounded_[v] = flags(v, 0) != 0.0 ? 1 : 0;
     }
     reader.require_end();
 }

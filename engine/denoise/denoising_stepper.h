@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/denoise/denoise_options.h"
@@ -29,6 +31,7 @@ class DenoisingStepper final : public WholeMeshStepper {
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return positions_; }
     void set_positions(const Points& image, const SimilarityOfComponents&) override { positions_ = image; }
+    [[nodiscard]] std::span<const std::uint8_t> bounded() const override { return is_rounded_; }
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) override;
     void report_to(DenoiseReport& report) const override;
@@ -52,8 +55,10 @@ class DenoisingStepper final : public WholeMeshStepper {
     bool smooth_within_steps(const Points& before, const Executor& exec);
 
     /// Removes noise of components whose roughness rounding does not explain, beside those where it does.
-    /// @param faces those of these components, ascending.
-    void remove_noise_of(const std::vector<Index>& faces, const Points& before, const Executor& exec);
+    /// @param faces those of these components, ascending. @param held #V: 1 at vertices that stay; empty: there are
+    /// none.
+    void remove_noise_of(const std::vector<Index>& faces, const std::vector<std::uint8_t>& held, const Points& before,
+                         const Executor& exec);
 
     void remove_noise(const Points& before, const Executor& exec);
 
@@ -62,6 +67,10 @@ class DenoisingStepper final : public WholeMeshStepper {
     Rounding rounding_;
     double edge_angle_;
     MotionDirection direction_;
+    /// Whether copies of vertices may count as one.
+    bool joins_copies_;
+    /// The largest distance from the initial positions, in units of length.
+    std::optional<double> within_;
     /// Ascending.
     std::vector<Index> on_feature_edges_;
     /// The mesh on which noise is removed; null without feature edges: then it is mesh_.
@@ -76,6 +85,8 @@ class DenoisingStepper final : public WholeMeshStepper {
     std::optional<SurfaceNoise> noise_;
     /// What the first step took for rounded.
     std::optional<RoundingReport> rounded_;
+    /// #V: 1 at vertices of components that it smoothed within the bounds of rounding; empty if there are none.
+    std::vector<std::uint8_t> is_rounded_;
     /// The spikes that stayed in the first step.
     std::vector<Spike> spikes_;
 };

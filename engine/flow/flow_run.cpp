@@ -199,7 +199,7 @@ void FlowRun::compare(int step, StepReport& of_step)
     of_step.distance = vertex_distance(undecomposed, undecomposed.vertices, decomposed.vertices);
     of_step.surface_distance = surface_distance(undecomposed, decomposed, run_in_parallel);
     undecomposed_ = reference_->positions();
-    named(name, [&] { constraints_->make_result(undecomposed_); });
+    named(name, [&] { constraints_->make_result(*reference_, undecomposed_); });
 }
 
 /// Calls the observer, and adds two results to the state: the separated sub-meshes, a mesh in which each sub-mesh has

@@ -132,12 +132,13 @@ void LimitedComponents::limit_slides(Points& positions) const
     positions = std::move(limited);
 }
 
-void LimitedComponents::apply(Points& positions)
+void LimitedComponents::apply(Points& positions, std::span<const std::uint8_t> exempt)
 {
     if (std::isfinite(limits_.slide))
         limit_slides(positions);
+    const auto is_exempt = [&](Index v) { return exempt[usize(v)] != 0; };
     for (Index c = 0; c < components_.count(); ++c) {
-        factors_[c] = factor_of(c, positions);
+        factors_[c] = !exempt.empty() && std::ranges::all_of(vertices_[c], is_exempt) ? 1.0 : factor_of(c, positions);
         if (factors_[c] == 1.0)
             continue;
         const std::span<const Index> vertices = vertices_[c];

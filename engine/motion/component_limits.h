@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,9 @@ class LimitedComponents {
 
     /// Moves the vertices of components that have changed too much back, on the straight lines to their initial
     /// positions.
-    /// @param positions #V by 3.
-    void apply(Points& positions);
+    /// @param positions #V by 3. @param exempt #V: 1 at vertices of components that are not limited; empty: there are
+    /// none.
+    void apply(Points& positions, std::span<const std::uint8_t> exempt = {});
 
     /// A sentence about the last result; empty if no component had changed too much.
     [[nodiscard]] std::optional<Remark> remark() const;

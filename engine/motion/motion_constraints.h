@@ -31,6 +31,7 @@ struct MotionConstraints {
         limit.emplace(mesh, largest_update);
         if (motion.limits.exist())
             limited.emplace(mesh, topology, motion.limits);
+        has_default_limits_ = motion.limits == ComponentLimits{.volume = ComponentLimits::most_volume_change};
         if (motion.within)
             bound.emplace(mesh, topology, motion.within->value);
     }
@@ -38,15 +39,15 @@ struct MotionConstraints {
     /// Whether results differ from the positions from which the flow continues.
     [[nodiscard]] bool has_results_apart() const { return is_scaled_apart || bound || limited; }
 
-    /// Turns positions of the flow into a result.
-    void make_result(Points& positions)
+    /// Turns positions of the flow into a result. @param stepper that made them.
+    void make_result(const SurfaceStepper& stepper, Points& positions)
     {
         if (is_scaled_apart)
             rescaling.apply(positions);
         if (bound)
             bound->apply(positions);
         if (limited)
-            limited->apply(positions);
+            limited->apply(positions, has_default_limits_ ? stepper.bounded() : std::span<const std::uint8_t>());
         if (directed_ && directed_->is_parallel() && has_results_apart())
             directed_->straighten(mesh_->vertices, positions, run_in_parallel);
     }
@@ -86,6 +87,8 @@ struct MotionConstraints {
   private:
     const PolygonMesh* mesh_;
     std::optional<DirectedMotion> directed_;
+    /// Whether limits are those where a run chooses how much to smooth.
+    bool has_default_limits_ = false;
 };
 
 }  // namespace seamflow

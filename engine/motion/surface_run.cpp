@@ -70,7 +70,7 @@ void SurfaceRun::restore(const FlowState& state)
     require_positions(state.flow);
     stepper().restore(state.flow);
     Points positions = stepper().positions();
-    constraints_->make_result(positions);
+    constraints_->make_result(stepper(), positions);
     mesh_.move_to(positions);
     if (meter_)
         meter_->restore(state.displacement, mesh_.mesh().vertices);
@@ -110,7 +110,7 @@ void SurfaceRun::take_step(const StepObserver& on_step)
         constraints_->rescale(stepper());
         if (is_apart) {
             of_run_ = result_ = stepper().positions();
-            constraints_->make_result(result_);
+            constraints_->make_result(stepper(), result_);
         }
     });
     const Points& after = is_apart ? result_ : stepper().positions();

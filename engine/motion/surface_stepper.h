@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "engine/measure/run_report.h"
@@ -34,6 +35,10 @@ class SurfaceStepper {
     /// @param image #V by 3: positions() mapped by the similarity of each component, or moved otherwise if there is no
     /// similarity; vertices without faces keep their positions.
     virtual void set_positions(const Points& image, const SimilarityOfComponents& similarity) = 0;
+
+    /// #V: 1 at vertices of components that the stepper bounds itself, and whose volumes it restores: limits that were
+    /// not asked for do not apply to them. Empty: there are none.
+    [[nodiscard]] virtual std::span<const std::uint8_t> bounded() const { return {}; }
 
     /// Saves the data that the next step needs.
     virtual void save(StepMemory& memory) const = 0;

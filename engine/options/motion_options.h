@@ -88,6 +88,8 @@ struct ComponentLimits {
     double slide = std::numeric_limits<double>::infinity();
 
     [[nodiscard]] bool exist() const { return std::isfinite(volume) || std::isfinite(move) || std::isfinite(slide); }
+
+    friend bool operator==(const ComponentLimits&, const ComponentLimits&) = default;
 };
 
 /// The lines along which vertices move. Sliding along the surface that a step makes is left out.

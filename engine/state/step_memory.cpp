@@ -44,6 +44,14 @@ int StepMemoryReader::count()
     return static_cast<int>(value);
 }
 
+Index StepMemoryReader::index(Index n)
+{
+    const double value = number();
+    if (!(value >= 0.0 && value < n))
+        refuse();
+    return static_cast<Index>(value);
+}
+
 void StepMemoryReader::require_end() const
 {
     if (next_array_ != memory_->arrays.size() || next_number_ != memory_->numbers.size())

@@ -40,6 +40,10 @@ class StepMemoryReader {
     /// @throws InputError if there is no further number, or it is not from 0 to most_steps.
     int count();
 
+    /// Returns the next number as the number of an element. @param n the number of elements.
+    /// @throws InputError if there is no further number, or it is none of 0 to n - 1.
+    Index index(Index n);
+
     /// @throws InputError if any data are left.
     void require_end() const;
 

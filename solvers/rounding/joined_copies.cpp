@@ -104,6 +104,17 @@ PolygonMesh without_repeated_faces(const PolygonMesh& mesh)
 
 }  // namespace
 
+std::vector<std::uint8_t> JoinedCopies::shared_vertices() const
+{
+    std::vector<std::uint8_t> is_shared(original_of.size(), 0);
+    for (std::size_t v = 0; v < original_of.size(); ++v)
+        if (const Index original = original_of[v]; original != static_cast<Index>(v))
+            is_shared[v] = is_shared[usize(original)] = 1;
+    for (const Index v : ambiguous)
+        is_shared[usize(v)] = 1;
+    return is_shared;
+}
+
 std::optional<JoinedCopies> join_copies(const PolygonMesh& mesh, const Topology& topology, const Components& components,
                                         const Points& positions, const Executor& exec)
 {
@@ -125,14 +136,19 @@ std::optional<JoinedCopies> join_copies(const PolygonMesh& mesh, const Topology&
         for (const Index v : copies)
             of_copies.push_back(components.component_of[topology.face_of[topology.corners_at(v).front()]]);
         sort_unique(of_copies);
-        if (copies.size() < 2 || of_copies.size() < copies.size())
+        if (copies.size() < 2)
             continue;
+        if (of_copies.size() < copies.size()) {
+            joined.ambiguous.insert(joined.ambiguous.end(), copies.begin(), copies.end());
+            continue;
+        }
         has_copies = true;
         for (const Index v : copies)
             joined.original_of[v] = copies.front();
     }
-    if (!has_copies)
+    if (!has_copies && joined.ambiguous.empty())
         return std::nullopt;
+    std::ranges::sort(joined.ambiguous);
     joined.all_faces = {positions, mesh.face_offsets, mesh.face_vertices};
     for (Index& v : joined.all_faces.face_vertices)
         v = joined.original_of[v];

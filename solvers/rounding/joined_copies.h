@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,12 @@ struct JoinedCopies {
     PolygonMesh all_faces;
     /// #V: the vertex of which each one is a copy; its own number for others.
     std::vector<Index> original_of;
+    /// Vertices at places where a component has several, on edges that lie on each other, ascending: it does not show
+    /// which of them are copies of each other.
+    std::vector<Index> ambiguous;
+
+    /// #V: 1 at vertices that have copies, at copies, and at ambiguous vertices.
+    [[nodiscard]] std::vector<std::uint8_t> shared_vertices() const;
 };
 
 /// Joins vertices of different components at the same place, where edges of these components lie on each other. Where a

@@ -64,11 +64,34 @@ void KeptVolumes::restore(const Boxes& boxes, Points& positions, const Executor&
             lengths[c] = (kept_[c] - volume(c, positions, exec_of_faces)) / area;
     });
     const Points before = positions;
-    for_each(exec, mesh_.n_vertices(), [&](Index v) {
+    const auto motion_for = [&](Index v) -> Point {
         const Index c = component_of_[v];
-        if (c >= 0 && lengths[c] != 0.0)
-            positions.row(v) = boxes.nearest(v, before.row(v) + lengths[c] * normals_(v, before));
+        return c >= 0 && lengths[c] != 0.0 ? Point(lengths[c] * normals_(v, before)) : Point::Zero();
+    };
+    for_each(exec, mesh_.n_vertices(), [&](Index v) {
+        Point motion = Point::Zero();
+        if (copies_.size() == 0) {
+            motion = motion_for(v);
+        } else if (!copies_[v].empty()) {
+            for (const Index copy : copies_[v])
+                motion += motion_for(copy);
+            motion /= static_cast<double>(copies_[v].size());
+        }
+        if (!motion.isZero(0.0))
+            positions.row(v) = boxes.nearest(v, before.row(v) + motion);
     });
+}
+
+void KeptVolumes::share(const std::vector<Index>& original_of)
+{
+    std::vector<std::vector<Index>> copies(original_of.size());
+    for (std::size_t v = 0; v < original_of.size(); ++v)
+        copies[usize(original_of[v])].push_back(static_cast<Index>(v));
+    copies_ = {};
+    for (const std::vector<Index>& of_vertex : copies) {
+        copies_.values.insert(copies_.values.end(), of_vertex.begin(), of_vertex.end());
+        copies_.close();
+    }
 }
 
 double KeptVolumes::volume(Index component, const Points& positions, const Executor& exec) const

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "partition/connected_components.h"
+#include "partition/index_lists.h"
 #include "partition/metrics/vertex_normals.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
@@ -19,8 +20,9 @@ class KeptVolumes {
     KeptVolumes(const PolygonMesh& mesh, const Topology& topology, const Components& components,
                 const Points& positions, const Executor& exec);
 
-    /// Lets restore leave a vertex where it is.
-    void hold(Index vertex) { component_of_[vertex] = -1; }
+    /// From now on, a vertex that several components share, each with a copy of its own, moves by the mean of what
+    /// these ask for. @param original_of #V: the vertex of which each one is a copy; its own number for others.
+    void share(const std::vector<Index>& original_of);
 
     /// Moves the vertices of each component along their normals, all by the same length, as far as their boxes allow,
     /// so that the volume comes nearer to that which is kept. Components that enclose no volume stay.
@@ -38,9 +40,10 @@ class KeptVolumes {
     const Components& components_;
     /// Per component: the volume that is kept; 0 for components that enclose none.
     std::vector<double> kept_;
-    /// #V: the component of the faces of each vertex; -1 at vertices without faces, where several components meet,
-    /// and at those that are held.
+    /// #V: the component of the faces of each vertex; -1 at vertices without faces, and where several components meet.
     std::vector<Index> component_of_;
+    /// #V: the copies of each vertex, with itself; nothing at copies. Empty: there are no copies.
+    IndexLists copies_;
 };
 
 }  // namespace seamflow

@@ -91,6 +91,72 @@ std::vector<double> fractions_near_bounds(const SurfaceParts& parts, const Boxes
     return near;
 }
 
+bool begins_with_fairing(const CoordinateBounds& bounds)
+{
+    return bounds.kind != CoordinateBounds::Kind::MarchingCubes || !has_equal_steps(bounds.steps);
+}
+
+/// A surface whose vertices move: that with copies joined, or the surface itself.
+struct MovingSurface {
+    const PolygonMesh& mesh;
+    const Topology& topology;
+    /// #V: the vertices that share an edge with each vertex.
+    IndexLists neighbours;
+    /// Null without copies.
+    const JoinedCopies* joined;
+
+    MovingSurface(const PolygonMesh& of, const Topology& with, const JoinedCopies* of_copies, const Executor& exec)
+        : mesh(of)
+        , topology(with)
+        , neighbours(VertexAverages(of, with, exec).neighbours())
+        , joined(of_copies)
+    {
+    }
+
+    /// Gives copies of a vertex its values, #V by 3.
+    void copy_to_copies(Points& values) const
+    {
+        if (joined == nullptr)
+            return;
+        for (std::size_t v = 0; v < joined->original_of.size(); ++v)
+            values.row(static_cast<Eigen::Index>(v)) = Point(values.row(joined->original_of[v]));
+    }
+};
+
+/// #V: the fraction of its bounds that a vertex gets.
+/// @param topology of the surface before copies are joined.
+std::vector<double> fractions_of_bounds(const Topology& topology, const JoinedCopies* joined,
+                                        const RoundedMotion& motion, Index n_vertices)
+{
+    std::vector<double> fractions(usize(n_vertices));
+    for (Index v = 0; v < n_vertices; ++v)
+        fractions[v] = !topology.moves(v) ? 0.0 : motion.strengths.empty() ? 1.0 : motion.strengths[v];
+    if (joined == nullptr)
+        return fractions;
+    for (Index v = 0; v < n_vertices; ++v)
+        fractions[joined->original_of[v]] = std::min(fractions[joined->original_of[v]], fractions[v]);
+    for (const Index v : joined->ambiguous)
+        fractions[v] = 0.0;
+    return fractions;
+}
+
+/// The bounds of vertices that may move.
+/// @param fractions #V: the fraction of its bounds that each vertex gets.
+CoordinateBounds bounds_for(const MovingSurface& surface, const Points& positions, const std::vector<double>& fractions,
+                            const RoundedMotion& motion, const Executor& exec)
+{
+    const double length = mean_edge_length(surface.mesh, positions, exec);
+    CoordinateBounds bounds = motion.given_steps
+                                  ? bounds_of(positions, surface.neighbours, length, *motion.given_steps, exec)
+                                  : bounds_of(positions, surface.neighbours, length, exec);
+    if (bounds.kind == CoordinateBounds::Kind::None)
+        return bounds;
+    for_each(exec, static_cast<Index>(positions.rows()),
+             [&](Index v) { bounds.widths.row(v) = fractions[v] * bounds.widths.row(v).cwiseProduct(motion.axes); });
+    surface.copy_to_copies(bounds.widths);
+    return bounds;
+}
+
 /// Takes the positions of the vertices of some parts.
 void take(const SurfaceParts& parts, const std::vector<std::uint8_t>& taken, const Points& from, Points& positions,
           const Executor& exec)
@@ -101,146 +167,120 @@ void take(const SurfaceParts& parts, const std::vector<std::uint8_t>& taken, con
     });
 }
 
-bool begins_with_fairing(const CoordinateBounds& bounds)
+/// Smooths normals in both ways, and takes for each part the surface that bends less.
+/// @param volumes those that are kept. @param positions #V by 3: in the boxes; replaced.
+void smooth_normals(const MovingSurface& surface, const KeptVolumes& volumes, const Boxes& boxes, Points& positions,
+                    const Executor& exec)
 {
-    return bounds.kind != CoordinateBounds::Kind::MarchingCubes || !has_equal_steps(bounds.steps);
+    const Components components = face_components(surface.mesh, surface.topology);
+    const SurfaceParts parts(surface.mesh, surface.topology, components);
+    NormalsInBoxes normals(surface.mesh, surface.topology, parts, volumes, boxes, exec);
+    Points with_edges = positions;
+    const std::vector<double> bending = normals.smooth(NormalNeighbours::All, positions);
+    const std::vector<double> of_edges = normals.smooth(NormalNeighbours::SameSideOfEdge, with_edges, bending);
+    std::vector<std::uint8_t> taken(bending.size(), 0);
+    for (std::size_t part = 0; part < bending.size(); ++part)
+        taken[part] = NormalsInBoxes::bends_no_less(of_edges[part], bending[part]) ? 0 : 1;
+    take(parts, taken, with_edges, positions, exec);
 }
 
-/// The bounds of vertices that may move.
-/// @param neighbours #V: the vertices that share an edge with each vertex.
-CoordinateBounds bounds_for(const PolygonMesh& mesh, const Topology& topology, const IndexLists& neighbours,
-                            const Points& positions, const RoundedMotion& motion, const Executor& exec)
+/// Per part: 1 if rounding explains its roughness.
+std::vector<std::uint8_t> explained_parts(const SurfaceParts& parts, const CoordinateBounds& bounds, const Boxes& boxes,
+                                          const Points& positions, const Executor& exec)
 {
-    const double length = mean_edge_length(mesh, positions, exec);
-    CoordinateBounds bounds = motion.given_steps ? bounds_of(positions, neighbours, length, *motion.given_steps, exec)
-                                                 : bounds_of(positions, neighbours, length, exec);
-    if (bounds.kind == CoordinateBounds::Kind::None)
-        return bounds;
-    for_each(exec, mesh.n_vertices(), [&](Index v) {
-        const double strength = motion.strengths.empty() ? 1.0 : motion.strengths[v];
-        bounds.widths.row(v) =
-            topology.moves(v) ? Point(strength * bounds.widths.row(v).cwiseProduct(motion.axes)) : Point::Zero();
-    });
-    return bounds;
+    const std::vector<double> before = parts.bending(boxes.widths, boxes.middles, exec);
+    const std::vector<double> after = parts.bending(boxes.widths, positions, exec);
+    const std::vector<double> near = fractions_near_bounds(parts, boxes, bounds, positions);
+    const Evidence evidence = evidence_for(bounds.kind);
+    std::vector<std::uint8_t> explained(before.size());
+    for (std::size_t part = 0; part < before.size(); ++part)
+        explained[part] =
+            before[part] > 0.0 && after[part] / before[part] + evidence.of(near[part]) <= evidence.most ? 1 : 0;
+    return explained;
 }
 
-/// The surface within bounds that bends less of the two, for each part.
-class SmootherSurface {
+/// Smooths a surface within bounds.
+class SmoothingInBounds {
   public:
-    /// @param components those of the faces. @param volumes those that are kept. All must outlive the object.
-    SmootherSurface(const PolygonMesh& mesh, const Topology& topology, const Components& components,
-                    const KeptVolumes& volumes, const Boxes& boxes, const Executor& exec)
-        : mesh_(mesh)
-        , topology_(topology)
-        , boxes_(boxes)
+    /// @param mesh, topology before copies are joined. @param surface that moves. @param positions #V by 3. All must
+    /// outlive the object.
+    SmoothingInBounds(const PolygonMesh& mesh, const Topology& topology, const Components& components,
+                      const MovingSurface& surface, const Points& positions, const Executor& exec)
+        : surface_(surface)
+        , positions_(positions)
         , exec_(exec)
         , parts_(mesh, topology, components)
-        , normals_(mesh, topology, parts_, volumes, boxes_, exec)
+        , volumes_(surface.joined != nullptr ? surface.joined->all_faces : mesh, topology, components, positions, exec)
     {
+        explained_.assign(usize(parts_.count()), 1);
+        if (surface.joined != nullptr)
+            volumes_.share(surface.joined->original_of);
     }
 
-    /// Smooths normals. @param positions #V by 3: in the boxes; replaced.
-    void smooth(Points& positions)
+    /// @param judges whether it is judged which parts move: those whose roughness rounding explains. Otherwise those
+    /// of the last judgement move, or all.
+    /// @returns nothing if there are none. `spikes` is empty.
+    std::optional<SmoothedWithinSteps> smooth(CoordinateBounds bounds, bool judges)
     {
-        const Points fair = positions;
-        Points with_edges = fair;
-        bending_ = normals_.smooth(NormalNeighbours::All, positions);
-        const std::vector<double> of_edges = normals_.smooth(NormalNeighbours::SameSideOfEdge, with_edges, bending_);
-        std::vector<std::uint8_t> taken(bending_.size(), 0);
-        for (std::size_t part = 0; part < bending_.size(); ++part)
-            if (!NormalsInBoxes::bends_no_less(of_edges[part], bending_[part])) {
-                taken[part] = 1;
-                bending_[part] = of_edges[part];
-            }
-        take(parts_, taken, with_edges, positions, exec_);
-        uncross_faces(mesh_, topology_, fair, boxes_, positions, exec_);
-    }
-
-    /// Puts parts back whose roughness the rounding does not explain. @param positions the result of `smooth`.
-    /// @returns #V: 1 at their vertices; empty if it explains that of no part.
-    [[nodiscard]] std::vector<std::uint8_t> put_back_unexplained(const CoordinateBounds& bounds,
-                                                                 Points& positions) const
-    {
-        const std::vector<double> before = normals_.bending(boxes_.middles);
-        const std::vector<double> near = fractions_near_bounds(parts_, boxes_, bounds, positions);
-        const Evidence evidence = evidence_for(bounds.kind);
-        std::vector<std::uint8_t> is_unexplained(bending_.size(), 0);
-        for (std::size_t part = 0; part < bending_.size(); ++part)
-            if (!(before[part] > 0.0 && bending_[part] / before[part] + evidence.of(near[part]) <= evidence.most))
-                is_unexplained[part] = 1;
-        if (std::ranges::find(is_unexplained, 0) == is_unexplained.end())
-            return {};
-        take(parts_, is_unexplained, boxes_.middles, positions, exec_);
-        std::vector<std::uint8_t> of_vertices(usize(mesh_.n_vertices()), 0);
-        for_each(exec_, mesh_.n_vertices(), [&](Index v) {
-            if (const Index part = parts_.of_vertex(v); part >= 0)
-                of_vertices[v] = is_unexplained[part];
-        });
-        return of_vertices;
+        if (!judges)
+            hold_others(bounds.widths);
+        const Boxes boxes{positions_, bounds.widths};
+        SmoothedWithinSteps result{.positions = positions_, .steps = bounds.steps};
+        const double smallest_step =
+            (bounds.steps.array() > 0.0).select(bounds.steps, bounds.steps.maxCoeff()).minCoeff();
+        if (begins_with_fairing(bounds))
+            result.fairing = fair_in_boxes(surface_.neighbours, boxes, {most_iterations, last_motion * smallest_step},
+                                           result.positions, exec_);
+        result.fairing.last_motion /= smallest_step;
+        const Points fair = result.positions;
+        smooth_normals(surface_, volumes_, boxes, result.positions, exec_);
+        surface_.copy_to_copies(result.positions);
+        if (judges) {
+            explained_ = explained_parts(parts_, bounds, boxes, result.positions, exec_);
+            if (std::ranges::find(explained_, 1) == explained_.end())
+                return std::nullopt;
+        }
+        result.is_smoothed = hold_others(bounds.widths);
+        for_each(exec_, static_cast<Index>(positions_.rows()),
+                 [&](Index v) { result.positions.row(v) = boxes.nearest(v, result.positions.row(v)); });
+        uncross_faces(surface_.mesh, surface_.topology, fair, boxes, result.positions, exec_);
+        surface_.copy_to_copies(result.positions);
+        return result;
     }
 
   private:
-    const PolygonMesh& mesh_;
-    const Topology& topology_;
-    Boxes boxes_;
+    /// Takes the bounds of vertices of the parts that are not explained, and of all their copies.
+    /// @returns #V: 1 at the vertices of the others.
+    std::vector<std::uint8_t> hold_others(Points& widths) const
+    {
+        const auto n = static_cast<Index>(positions_.rows());
+        std::vector<std::uint8_t> is_explained(usize(n), 0);
+        for (Index v = 0; v < n; ++v) {
+            const Index part = parts_.of_vertex(v);
+            is_explained[v] = part >= 0 ? explained_[part] : 0;
+            if (part >= 0 && is_explained[v] == 0)
+                widths.row(surface_.joined != nullptr ? surface_.joined->original_of[v] : v).setZero();
+        }
+        surface_.copy_to_copies(widths);
+        return is_explained;
+    }
+
+    const MovingSurface& surface_;
+    const Points& positions_;
     const Executor& exec_;
+    /// Those before copies are joined.
     SurfaceParts parts_;
-    NormalsInBoxes normals_;
-    /// The bending of each part of the smoothed surface.
-    std::vector<double> bending_;
+    KeptVolumes volumes_;
+    /// Per part: 1 if it moves.
+    std::vector<std::uint8_t> explained_;
 };
 
-/// A surface within bounds, of which all parts move, or those whose roughness the rounding explains.
-/// @param neighbours #V: the vertices that share an edge with each vertex. @param motion which steps are given.
-/// @returns nothing if no part moves.
-std::optional<SmoothedWithinSteps> smooth_within(const PolygonMesh& mesh, const Topology& topology,
-                                                 const Components& components, const KeptVolumes& volumes,
-                                                 const IndexLists& neighbours, const Points& positions,
-                                                 const CoordinateBounds& bounds, const RoundedMotion& motion,
-                                                 const Executor& exec)
+/// Bounds in which no vertex moves further than a distance.
+CoordinateBounds shortened(CoordinateBounds bounds, double distance)
 {
-    const Boxes boxes{positions, bounds.widths};
-    SmoothedWithinSteps result{.positions = positions, .steps = bounds.steps};
-    const double smallest_step = (bounds.steps.array() > 0.0).select(bounds.steps, bounds.steps.maxCoeff()).minCoeff();
-    if (begins_with_fairing(bounds))
-        result.fairing =
-            fair_in_boxes(neighbours, boxes, {most_iterations, last_motion * smallest_step}, result.positions, exec);
-    result.fairing.last_motion /= smallest_step;
-    SmootherSurface smoother(mesh, topology, components, volumes, boxes, exec);
-    smoother.smooth(result.positions);
-    if (motion.given_steps)
-        return result;
-    result.is_unexplained = smoother.put_back_unexplained(bounds, result.positions);
-    return result.is_unexplained.empty() ? std::nullopt : std::optional(std::move(result));
-}
-
-/// Smooths a surface whose components touch: copies of a vertex move as one.
-/// @param volumes of the components.
-std::optional<SmoothedWithinSteps> smooth_joined(const JoinedCopies& joined, KeptVolumes& volumes,
-                                                 const Points& positions, CoordinateBounds bounds,
-                                                 const RoundedMotion& motion, const Executor& exec)
-{
-    const std::vector<Index>& original_of = joined.original_of;
-    const auto n = static_cast<Index>(original_of.size());
-    for (Index v = 0; v < n; ++v)
-        if (const Index original = original_of[v]; original != v) {
-            volumes.hold(original);
-            bounds.widths.row(original) = bounds.widths.row(original).cwiseMin(bounds.widths.row(v));
-        }
-    Topology topology = make_topology(joined.mesh, exec);
-    free_junctions(joined.mesh, topology, exec);
-    std::optional<SmoothedWithinSteps> result =
-        smooth_within(joined.mesh, topology, face_components(joined.mesh, topology), volumes,
-                      VertexAverages(joined.mesh, topology, exec).neighbours(), positions, bounds, motion, exec);
-    if (result)
-        for_each(exec, n, [&](Index v) {
-            if (const Index original = original_of[v]; original != v) {
-                result->positions.row(v) = result->positions.row(original);
-                if (!result->is_unexplained.empty())
-                    result->is_unexplained[v] = result->is_unexplained[original];
-            }
-        });
-    return result;
+    const double n_axes = static_cast<double>((bounds.widths.colwise().maxCoeff().array() > 0.0).count());
+    bounds.widths = bounds.widths.cwiseMin(distance / std::sqrt(std::max(n_axes, 1.0)));
+    return bounds;
 }
 
 }  // namespace
@@ -251,18 +291,29 @@ std::optional<SmoothedWithinSteps> smooth_rounded(const PolygonMesh& mesh, const
 {
     std::vector<Spike> spikes = find_spikes(mesh, positions, exec);
     const Points filled = spikes.empty() ? positions : without_spikes(mesh, topology, spikes, positions);
-    const IndexLists neighbours = VertexAverages(mesh, topology, exec).neighbours();
-    const CoordinateBounds bounds = bounds_for(mesh, topology, neighbours, filled, motion, exec);
+    const Components components = face_components(mesh, topology);
+    const std::optional<JoinedCopies> joined =
+        motion.joins_copies ? join_copies(mesh, topology, components, filled, exec) : std::nullopt;
+    Topology of_joined;
+    if (joined) {
+        of_joined = make_topology(joined->mesh, exec);
+        free_junctions(joined->mesh, of_joined, exec);
+    }
+    const JoinedCopies* const copies = joined ? &*joined : nullptr;
+    const MovingSurface surface(joined ? joined->mesh : mesh, joined ? of_joined : topology, copies, exec);
+    const CoordinateBounds bounds =
+        bounds_for(surface, filled, fractions_of_bounds(topology, copies, motion, mesh.n_vertices()), motion, exec);
     if (bounds.kind == CoordinateBounds::Kind::None || (!motion.given_steps && bounds.widths.isZero(0.0)))
         return std::nullopt;
-    const Components components = face_components(mesh, topology);
-    const std::optional<JoinedCopies> joined = join_copies(mesh, topology, components, filled, exec);
-    KeptVolumes volumes(joined ? joined->all_faces : mesh, topology, components, filled, exec);
-    std::optional<SmoothedWithinSteps> result =
-        joined ? smooth_joined(*joined, volumes, filled, bounds, motion, exec)
-               : smooth_within(mesh, topology, components, volumes, neighbours, filled, bounds, motion, exec);
+    SmoothingInBounds smoothing(mesh, topology, components, surface, filled, exec);
+    std::optional<SmoothedWithinSteps> result = smoothing.smooth(bounds, !motion.given_steps);
     if (!result)
         return std::nullopt;
+    // Whether rounding explains what is rough shows in the whole bounds.
+    if (motion.within)
+        result = smoothing.smooth(shortened(bounds, *motion.within), false);
+    if (joined)
+        result->is_copy = joined->shared_vertices();
     for (const Spike& spike : spikes)
         result->positions.row(spike.vertex) = positions.row(spike.vertex);
     result->spikes = std::move(spikes);

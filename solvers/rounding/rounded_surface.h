@@ -22,6 +22,10 @@ struct RoundedMotion {
     /// The steps of x, y and z, in units of length; 0: not rounded. Nothing: they are found, and count only where they
     /// explain what is rough.
     std::optional<Point> given_steps = std::nullopt;
+    /// Whether copies of a vertex where components touch move as one (see join_copies).
+    bool joins_copies = true;
+    /// The largest distance of a vertex from where it was, in units of length; nothing: half a step alone bounds it.
+    std::optional<double> within = std::nullopt;
 };
 
 /// A surface that is as smooth as rounded coordinates allow.
@@ -32,8 +36,11 @@ struct SmoothedWithinSteps {
     Point steps = Point::Zero();
     /// The last motion is in smallest steps. Nothing for marching cubes of equal steps.
     FairingReport fairing = {};
-    /// #V: 1 at vertices of components whose roughness rounding does not explain, which stayed.
-    std::vector<std::uint8_t> is_unexplained = {};
+    /// #V: 1 at vertices of components that were smoothed, 0 at those whose roughness rounding does not explain, which
+    /// stayed.
+    std::vector<std::uint8_t> is_smoothed = {};
+    /// #V: 1 at vertices where components touch, which are copies of each other; empty: there are none.
+    std::vector<std::uint8_t> is_copy = {};
     /// Vertices such as heights for missing data, which stayed.
     std::vector<Spike> spikes = {};
 };
@@ -49,8 +56,8 @@ struct SmoothedWithinSteps {
 /// Steps that are found explain the roughness of a component if within half a step it bends much less, and only few
 /// vertices would have to go further. On noise, which goes beyond half a step, and on shapes with edges at whole
 /// numbers, such as a box of blocks, either does not hold: these components stay. Components of fewer than 200 faces
-/// are judged together. Steps that are given count on all components. Spikes (see find_spikes) stay, and count in
-/// nothing.
+/// are judged together; those that touch, one by one: the walls of a component that stays do so, too. Steps that are
+/// given count on all components. Spikes (see find_spikes) stay, and count in nothing.
 /// @param topology with twins. Vertices that it fixes do not move. @param positions #V by 3.
 /// @returns nothing if there are no steps, or if they explain the roughness of no component.
 std::optional<SmoothedWithinSteps> smooth_rounded(const PolygonMesh& mesh, const Topology& topology,

@@ -1,6 +1,7 @@
 #include "solvers/rounding/uncrossed_faces.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <vector>
@@ -22,6 +23,8 @@ constexpr int rounds_to_fair = 40;
 constexpr int rounds_to_input = 6;
 /// Faces cross at most this many rings of faces beside the line, the point or the edge where they meet.
 constexpr int rings = 2;
+/// Vertices of more faces are crowded: each round would compare all pairs of these.
+constexpr std::size_t crowded = 200;
 /// The largest cosine between the normals of two faces at a sharp edge.
 constexpr double sharp = 0.5;
 
@@ -35,9 +38,10 @@ bool is_sharp(const PolygonMesh& mesh, const Topology& topology, const Points& n
     return !(sense * normals.row(topology.face_of[h]).dot(normals.row(topology.face_of[twin])) > sharp);
 }
 
-/// The vertices on lines of several sheets, points where bodies touch, and sharp edges.
-std::vector<Index> doubtful_vertices(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
-                                     const Executor& exec)
+/// The vertices that have moved, on lines of several sheets, points where bodies touch, and sharp edges; but for
+/// crowded ones.
+std::vector<Index> doubtful_vertices(const PolygonMesh& mesh, const Topology& topology, const Points& before,
+                                     const Points& positions, const Executor& exec)
 {
     Points normals(mesh.n_faces(), 3);
     for_each(exec, mesh.n_faces(),
@@ -52,6 +56,8 @@ std::vector<Index> doubtful_vertices(const PolygonMesh& mesh, const Topology& to
         add_ends(link.halfedge);
     std::ranges::for_each(select(exec, mesh.n_corners(), [&](Index h) { return is_sharp(mesh, topology, normals, h); }),
                           add_ends);
+    std::erase_if(
+        found, [&](Index v) { return positions.row(v) == before.row(v) || topology.corners_at(v).size() > crowded; });
     return found;
 }
 
@@ -115,8 +121,9 @@ class WrongFaces {
 void uncross_faces(const PolygonMesh& mesh, const Topology& topology, const Points& fair, const Boxes& boxes,
                    Points& positions, const Executor& exec)
 {
-    const WrongFaces of_all(mesh, faces_around(mesh, topology, doubtful_vertices(mesh, topology, positions, exec)),
-                            boxes.middles, exec);
+    const WrongFaces of_all(
+        mesh, faces_around(mesh, topology, doubtful_vertices(mesh, topology, boxes.middles, positions, exec)),
+        boxes.middles, exec);
     std::vector<Index> wrong = of_all.vertices(positions);
     for (int round = 0; round < rounds_to_fair + rounds_to_input && !wrong.empty(); ++round) {
         const bool is_to_fair = round < rounds_to_fair;
