@@ -29,8 +29,9 @@ struct JoinedCopies {
     [[nodiscard]] std::vector<std::uint8_t> shared_vertices() const;
 };
 
-/// Joins vertices of different components at the same place, where edges of these components lie on each other. Where a
-/// component has several vertices at a place, none are joined.
+/// Joins vertices of different components at the same place that are ends of edges of both components with the same two
+/// places. Walls that are cut into other faces on their two sides are not joined. Where a component has several
+/// vertices at a place, none are joined: they are ambiguous.
 /// @param topology with twins. @param components of the faces. @param positions #V by 3.
 /// @returns nothing if there are no copies.
 std::optional<JoinedCopies> join_copies(const PolygonMesh& mesh, const Topology& topology, const Components& components,

@@ -279,7 +279,9 @@ class SmoothingInBounds {
 CoordinateBounds shortened(CoordinateBounds bounds, double distance)
 {
     const double n_axes = static_cast<double>((bounds.widths.colwise().maxCoeff().array() > 0.0).count());
-    bounds.widths = bounds.widths.cwiseMin(distance / std::sqrt(std::max(n_axes, 1.0)));
+    // So much shorter that rounding leads no vertex further.
+    constexpr double rounding = 1e-12;
+    bounds.widths = bounds.widths.cwiseMin((1.0 - rounding) * distance / std::sqrt(std::max(n_axes, 1.0)));
     return bounds;
 }
 

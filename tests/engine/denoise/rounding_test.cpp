@@ -2,13 +2,16 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
 
 #include "engine/denoise.h"
 #include "engine/state/flow_state.h"
+#include "partition/connected_components.h"
 #include "partition/errors.h"
+#include "partition/metrics/volume.h"
 #include "samples/meshes/meshes.h"
 #include "samples/meshes/random_numbers.h"
 #include "tests/support/digitised.h"
@@ -17,6 +20,7 @@
 
 using namespace seamflow;
 using test::ball;
+using test::Inside;
 using test::same_bits;
 using test::voxel_faces;
 
@@ -55,6 +59,22 @@ PolygonMesh heights_with_a_gap()
         Point(0.0, 0.0, 1.0));
     mesh.vertices(1225, 2) = -9999.0;
     return mesh;
+}
+
+/// Checks that copies of a vertex in two meshes in one keep together. @param n_first the number of vertices of the
+/// first mesh. @returns the number of copies.
+int count_kept_copies(const PolygonMesh& mesh, const PolygonMesh& before, Index n_first)
+{
+    int n_copies = 0;
+    int n_kept = 0;
+    for (Index v = 0; v < n_first; ++v)
+        for (Index w = n_first; w < before.n_vertices(); ++w)
+            if (before.vertices.row(v) == before.vertices.row(w)) {
+                ++n_copies;
+                n_kept += same_bits(mesh.vertices.row(v), mesh.vertices.row(w)) ? 1 : 0;
+            }
+    CHECK(n_kept == n_copies);
+    return n_copies;
 }
 
 }  // namespace
@@ -117,14 +137,7 @@ TEST_CASE("rounded coordinates: segments with a wall of their own each keep toge
     CHECK_FALSE(names(report.remarks, "limited loss"));
     CHECK(furthest(segments, before) <= 0.5);
     const Index n_left = voxel_faces(left, 20).n_vertices();
-    int n_shared = 0;
-    for (Index v = 0; v < n_left; ++v)
-        for (Index w = n_left; w < before.n_vertices(); ++w)
-            if (before.vertices.row(v) == before.vertices.row(w)) {
-                ++n_shared;
-                CHECK(same_bits(segments.vertices.row(v), segments.vertices.row(w)));
-            }
-    CHECK(n_shared > 100);
+    CHECK(count_kept_copies(segments, before, n_left) > 100);
 
     PolygonMesh walls =
         test::wall_faces([&](const Point& point) { return left(point)    ? 1
@@ -136,6 +149,72 @@ TEST_CASE("rounded coordinates: segments with a wall of their own each keep toge
     CHECK(of_walls.mesh.junction_vertices > 30);
     CHECK(furthest(walls, walls_before) <= 0.5);
     CHECK(((walls.vertices - walls_before.vertices).rowwise().norm().array() > 0.0).all());
+}
+
+TEST_CASE("rounded coordinates: walls keep together and volumes stay, of small segments and of cores in shells, too")
+{
+    const auto in_ball = [](const Point& centre, double radius) {
+        return [=](const Point& point) { return (point - centre).norm() < radius; };
+    };
+    const auto in_large = in_ball(Point::Zero(), 8.3);
+    for (const auto& [centre, radius] : {std::pair(Point(0.0, 0.0, 0.0), 5.3),
+                                         {Point(8.5, 1.0, 0.5), 2.2},
+                                         {Point(8.5, 1.0, 0.5), 2.6},
+                                         {Point(9.0, 4.0, 2.0), 5.3}}) {
+        CAPTURE(radius);
+        const auto in_small = in_ball(centre, radius);
+        const PolygonMesh large =
+            voxel_faces([&](const Point& point) { return in_large(point) && !in_small(point); }, 34);
+        const PolygonMesh small = voxel_faces(in_small, 34);
+        const PolygonMesh before = test::together({large, small});
+        PolygonMesh mesh = before;
+        const DenoiseReport report = denoise_in_place(mesh);
+        REQUIRE(report.rounding);
+        // A small segment may go the way of noise.
+        const Points moved = mesh.vertices - before.vertices;
+        CHECK(moved.topRows(large.n_vertices()).cwiseAbs().maxCoeff() <= 0.5);
+        CHECK(count_kept_copies(mesh, before, large.n_vertices()) > 10);
+        const auto volumes = [&](const PolygonMesh& of) {
+            const Topology topology = make_topology(of);
+            const Components components = face_components(of, topology);
+            std::vector<double> found;
+            for (Index c = 0; c < components.count(); ++c) {
+                double total = 0.0;
+                for (const Index f : components.nodes[c])
+                    total += cone_volume(of.face(f), of.vertices, Point::Zero());
+                found.push_back(total);
+            }
+            return found;
+        };
+        const std::vector<double> of_before = volumes(before);
+        const std::vector<double> of_after = volumes(mesh);
+        for (std::size_t c = 0; c < of_before.size(); ++c)
+            CHECK(std::abs(of_after[c] - of_before[c]) <=
+                  (std::abs(of_before[c]) > 500.0 ? 0.01 : 0.03) * std::abs(of_before[c]));
+
+        // A bound from outside does not tear copies apart either.
+        PolygonMesh nearer = before;
+        DenoiseOptions options;
+        options.motion.within = 0.3;
+        REQUIRE(denoise_in_place(nearer, options).rounding);
+        CHECK((nearer.vertices - before.vertices).rowwise().norm().maxCoeff() <= 0.3 * (1.0 + 1e-12));
+        CHECK((nearer.vertices - before.vertices).rowwise().norm().maxCoeff() > 0.25);
+        CHECK(count_kept_copies(nearer, before, large.n_vertices()) > 10);
+    }
+}
+
+TEST_CASE("rounded coordinates: a clean box stays where a rounded ball touches it")
+{
+    const Inside in_box = [](const Point& point) {
+        return std::abs(point.z() + 9.0) < 2.0 && std::max(std::abs(point.x()), std::abs(point.y())) < 10.0;
+    };
+    const PolygonMesh box = voxel_faces(in_box, 30);
+    const PolygonMesh before = test::together({box, voxel_faces(ball(7.0), 30)});
+    PolygonMesh mesh = before;
+    REQUIRE(denoise_in_place(mesh).rounding);
+    CHECK(same_bits(mesh.vertices.topRows(box.n_vertices()), box.vertices));
+    CHECK(furthest(mesh, before) > 0.4);
+    CHECK(count_kept_copies(mesh, before, box.n_vertices()) > 10);
 }
 
 TEST_CASE("rounded coordinates: the same bits on any number of threads, after a resumption, and in later steps")
