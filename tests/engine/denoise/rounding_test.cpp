@@ -157,12 +157,14 @@ TEST_CASE("rounded coordinates: walls keep together and volumes stay, of small s
         return [=](const Point& point) { return (point - centre).norm() < radius; };
     };
     const auto in_large = in_ball(Point::Zero(), 8.3);
-    for (const auto& [centre, radius] : {std::pair(Point(0.0, 0.0, 0.0), 5.3),
-                                         {Point(8.5, 1.0, 0.5), 2.2},
-                                         {Point(8.5, 1.0, 0.5), 2.6},
-                                         {Point(9.0, 4.0, 2.0), 5.3}}) {
-        CAPTURE(radius);
-        const auto in_small = in_ball(centre, radius);
+    struct Small {
+        Point centre;
+        double radius;
+    };
+    for (const Small& segment : {Small{Point(0.0, 0.0, 0.0), 5.3}, Small{Point(8.5, 1.0, 0.5), 2.2},
+                                 Small{Point(8.5, 1.0, 0.5), 2.6}, Small{Point(9.0, 4.0, 2.0), 5.3}}) {
+        CAPTURE(segment.radius);
+        const auto in_small = in_ball(segment.centre, segment.radius);
         const PolygonMesh large =
             voxel_faces([&](const Point& point) { return in_large(point) && !in_small(point); }, 34);
         const PolygonMesh small = voxel_faces(in_small, 34);
