@@ -146,7 +146,9 @@ void DenoisingStepper::remove_noise_of(const std::vector<Index>& faces, const st
         denoiser.keep_rims();
     positions_(piece.vertices, Eigen::all) = denoiser.denoise(piece.mesh.vertices, strengths, exec);
     noise_ = denoiser.noise();
-    noise_->part *= static_cast<double>(piece.vertices.size()) / static_cast<double>(mesh_->n_vertices());
+    const std::vector<Index> with_faces =
+        select(exec, mesh_->n_vertices(), [&](Index v) { return !topology_->corners_at(v).empty(); });
+    noise_->part *= static_cast<double>(piece.vertices.size()) / static_cast<double>(with_faces.size());
 }
 
 void DenoisingStepper::step(const Points& before)

@@ -50,8 +50,8 @@ class DenoisingStepper final : public WholeMeshStepper {
     /// How vertices may move within the rounding of their coordinates.
     [[nodiscard]] RoundedMotion rounded_motion() const;
 
-    /// Takes the first step within the bounds of rounded coordinates. @returns false, with nothing done, where they are
-    /// not rounded, or where rounding does not explain what is rough, and in further steps.
+    /// In the first step: smooths within the bounds of rounded coordinates. @returns whether it did. It does nothing in
+    /// later steps, if no coordinates are rounded, and if rounding explains the roughness of no component.
     bool smooth_within_steps(const Points& before, const Executor& exec);
 
     /// Removes noise of components whose roughness rounding does not explain, beside those where it does.
@@ -81,11 +81,13 @@ class DenoisingStepper final : public WholeMeshStepper {
     MeshDenoiser denoiser_;
     Points positions_;
     LoopCount loops_;
-    /// The noise before the first step; of rounded surfaces, that of the other components.
+    /// The noise that the first step found; nothing before this step. If some components are rounded: the noise of the
+    /// others.
     std::optional<SurfaceNoise> noise_;
-    /// What the first step took for rounded.
+    /// The rounding that the first step smoothed; nothing if no component is rounded.
     std::optional<RoundingReport> rounded_;
-    /// #V: 1 at vertices of components that it smoothed within the bounds of rounding; empty if there are none.
+    /// #V: 1 at vertices of components that the first step smoothed within the bounds of rounding; empty: there are
+    /// none.
     std::vector<std::uint8_t> is_rounded_;
     /// The spikes that stayed in the first step.
     std::vector<Spike> spikes_;

@@ -15,8 +15,8 @@
 namespace seamflow {
 
 /// Limits the changes of the components of a surface (see ComponentLimits): if a component would change too much, its
-/// displacements are multiplied by the largest factor with which it does not, or by 0 if this is below a tenth. A blend
-/// of the surfaces before and after is the result of a filter that removes less of all features.
+/// displacements are multiplied by a factor below 1: the largest that keeps the limits, or 0 if that is below 0.1. Such
+/// a blend of the surfaces before and after is like the result of a weaker filter.
 class LimitedComponents {
   public:
     /// Measures the surface as it is. The mesh and topology must outlive the object.

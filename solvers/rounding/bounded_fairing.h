@@ -8,7 +8,7 @@ namespace seamflow {
 
 /// A box around each vertex, in which it has to stay.
 struct Boxes {
-    /// #V by 3: the middles, and half the lengths of the sides, at least 0.
+    /// #V by 3: the middles of the boxes, and the largest distance from the middle along each axis, at least 0.
     const Points& middles;
     const Points& widths;
 

@@ -33,8 +33,8 @@ struct CoordinateBounds {
 /// Whether x, y and z have steps of about the same size.
 bool has_equal_steps(const Point& steps);
 
-/// Finds the steps of a surface, and the bounds of its vertices. Vertices without neighbours have none, nor do those
-/// off the lattice with all their neighbours.
+/// Finds the steps of a surface, and the bounds of its vertices. A vertex without neighbours gets width 0. So does a
+/// coordinate that lies on no plane, if those of all neighbours lie on none either: it was not rounded.
 /// @param points #V by 3. @param neighbours #V: the vertices that share an edge with each. @param length a length of
 /// edges: steps below a tenth of it cannot be seen, of heights below a hundredth, and do not count.
 CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, double length,

@@ -21,8 +21,8 @@ struct JoinedCopies {
     PolygonMesh all_faces;
     /// #V: the vertex of which each one is a copy; its own number for others.
     std::vector<Index> original_of;
-    /// Vertices at places where a component has several, on edges that lie on each other, ascending: it does not show
-    /// which of them are copies of each other.
+    /// Ascending: vertices that were not joined, because one component has several vertices at their place. Which of
+    /// these are copies of each other cannot be known.
     std::vector<Index> ambiguous;
 
     /// #V: 1 at vertices that have copies, at copies, and at ambiguous vertices.
@@ -33,7 +33,7 @@ struct JoinedCopies {
 /// places. Walls that are cut into other faces on their two sides are not joined. Where a component has several
 /// vertices at a place, none are joined: they are ambiguous.
 /// @param topology with twins. @param components of the faces. @param positions #V by 3.
-/// @returns nothing if there are no copies.
+/// @returns nothing if there are neither copies nor ambiguous vertices.
 std::optional<JoinedCopies> join_copies(const PolygonMesh& mesh, const Topology& topology, const Components& components,
                                         const Points& positions, const Executor& exec = run_serially);
 

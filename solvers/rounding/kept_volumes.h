@@ -20,8 +20,9 @@ class KeptVolumes {
     KeptVolumes(const PolygonMesh& mesh, const Topology& topology, const Components& components,
                 const Points& positions, const Executor& exec);
 
-    /// From now on, a vertex that several components share, each with a copy of its own, moves by the mean of what
-    /// these ask for. @param original_of #V: the vertex of which each one is a copy; its own number for others.
+    /// From now on, copies of a vertex move together: restore moves them by the mean of the motions that their
+    /// components would give them. @param original_of #V: the vertex of which each one is a copy; its own number for
+    /// others.
     void share(const std::vector<Index>& original_of);
 
     /// Moves the vertices of each component along their normals, all by the same length, as far as their boxes allow,

@@ -36,9 +36,9 @@ struct Evidence {
     [[nodiscard]] double of(double fraction) const { return weight * std::max(fraction - (1.0 - near), 0.0); }
 };
 
-/// In brackets the sums of digitised shapes (balls, tori, tubes, boxes, plates, egg crates, terrains), then those of
-/// shapes of blocks (pyramids of steps, studs, ribs, pockets), which are to stay. Stairs that a digitised plane could
-/// be as well have sums of the first kind.
+/// The comments give measured sums as [digitised shapes; shapes made of blocks]. Digitised shapes (balls, tori, tubes,
+/// boxes, plates, egg crates, terrains) are to be smoothed. Shapes made of blocks (pyramids of steps, studs, ribs,
+/// pockets) are to stay. Stairs that a digitised plane could be as well have sums of the first kind.
 Evidence evidence_for(CoordinateBounds::Kind kind)
 {
     switch (kind) {

@@ -56,8 +56,8 @@ struct SmoothedWithinSteps {
 /// Steps that are found explain the roughness of a component if within half a step it bends much less, and only few
 /// vertices would have to go further. On noise, which goes beyond half a step, and on shapes with edges at whole
 /// numbers, such as a box of blocks, either does not hold: these components stay. Components of fewer than 200 faces
-/// are judged together; those that touch, one by one: the walls of a component that stays do so, too. Steps that are
-/// given count on all components. Spikes (see find_spikes) stay, and count in nothing.
+/// are judged together, all others one by one, also where they touch. A wall between two components stays if one of
+/// them stays. Steps that are given count on all components. Spikes (see find_spikes) stay, and count in nothing.
 /// @param topology with twins. Vertices that it fixes do not move. @param positions #V by 3.
 /// @returns nothing if there are no steps, or if they explain the roughness of no component.
 std::optional<SmoothedWithinSteps> smooth_rounded(const PolygonMesh& mesh, const Topology& topology,

@@ -14,14 +14,15 @@ namespace seamflow {
 
 namespace {
 
-/// A round leaves this part of the way from the fair surface. Less leaves kinks in lines (with 0.5, 23 in place of 10
-/// degrees from edge to edge).
+/// In each round, wrong vertices go back towards the fair surface: this fraction of their distance from it is left. A
+/// smaller fraction makes kinks in lines (with 0.5, 23 in place of 10 degrees from edge to edge).
 constexpr double kept_of_fair = 0.95;
-/// Then it leaves this part of the way from the input, and the last round nothing.
+/// In the rounds after these, they go back towards the input: this fraction of their distance from it is left, and 0 in
+/// the last round.
 constexpr double kept_of_input = 0.5;
 constexpr int rounds_to_fair = 40;
 constexpr int rounds_to_input = 6;
-/// Faces cross at most this many rings of faces beside the line, the point or the edge where they meet.
+/// Faces are looked at up to this many rings around such lines, points and edges.
 constexpr int rings = 2;
 /// Vertices of more faces are crowded: each round would compare all pairs of these.
 constexpr std::size_t crowded = 200;
