@@ -54,7 +54,8 @@ class DenoisingStepper final : public WholeMeshStepper {
     /// later steps, if no coordinates are rounded, and if rounding explains the roughness of no component.
     bool smooth_within_steps(const Points& before, const Executor& exec);
 
-    /// Removes noise of components whose roughness rounding does not explain, beside those where it does.
+    /// Removes noise of components whose roughness rounding does not explain, beside those where it does. Normals are
+    /// averaged across feature edges here.
     /// @param faces those of these components, ascending. @param held #V: 1 at vertices that stay; empty: there are
     /// none.
     void remove_noise_of(const std::vector<Index>& faces, const std::vector<std::uint8_t>& held, const Points& before,

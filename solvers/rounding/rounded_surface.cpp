@@ -308,10 +308,14 @@ std::optional<SmoothedWithinSteps> smooth_rounded(const PolygonMesh& mesh, const
     if (bounds.kind == CoordinateBounds::Kind::None || (!motion.given_steps && bounds.widths.isZero(0.0)))
         return std::nullopt;
     SmoothingInBounds smoothing(mesh, topology, components, surface, filled, exec);
-    std::optional<SmoothedWithinSteps> result = smoothing.smooth(bounds, !motion.given_steps);
-    if (!result)
-        return std::nullopt;
+    const bool judges = !motion.given_steps;
+    std::optional<SmoothedWithinSteps> result;
     // Whether rounding explains what is rough shows in the whole bounds.
+    if (judges || !motion.within) {
+        result = smoothing.smooth(bounds, judges);
+        if (!result)
+            return std::nullopt;
+    }
     if (motion.within)
         result = smoothing.smooth(shortened(bounds, *motion.within), false);
     if (joined)
