@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -48,13 +49,19 @@ std::unique_ptr<const DenoisingStepper::CutOpen> DenoisingStepper::cut_open(cons
     auto open = std::make_unique<CutOpen>();
     open->mesh = FeatureLines(mesh, topology, feature_edges).cut_open(mesh, topology);
     open->topology = make_topology(open->mesh, exec);
-    free_boundary(open->topology);
+    if (!topology.junctions.empty())
+        free_junctions(open->mesh, open->topology, exec);
+    const Index n = open->mesh.n_vertices();
+    open->vertex_of.resize(usize(n));
+    // Also vertices without faces are copies of themselves.
+    std::iota(open->vertex_of.begin(), open->vertex_of.begin() + mesh.n_vertices(), Index{0});
+    for (Index h = 0; h < mesh.n_corners(); ++h)
+        open->vertex_of[open->mesh.face_vertices[h]] = mesh.face_vertices[h];
+    open->mesh.vertices = mesh.vertices(open->vertex_of, Eigen::all);
     const std::vector<Index> on_feature_edges = vertices_of(feature_edges);
-    for (Index h = 0; h < mesh.n_corners(); ++h) {
-        const Index v = mesh.face_vertices[h];
-        open->mesh.vertices.row(open->mesh.face_vertices[h]) = mesh.vertices.row(v);
-        if (!topology.moves(v) || std::ranges::binary_search(on_feature_edges, v))
-            open->topology.fixed[open->mesh.face_vertices[h]] = 1;
+    for (Index copy = 0; copy < n; ++copy) {
+        const Index v = open->vertex_of[copy];
+        open->topology.fixed[copy] = topology.moves(v) && !std::ranges::binary_search(on_feature_edges, v) ? 0 : 1;
     }
     return open;
 }
@@ -67,7 +74,7 @@ DenoisingStepper::DenoisingStepper(const PolygonMesh& mesh, const Topology& topo
     , edge_angle_(method.edge_angle)
     , direction_(motion.direction)
     , joins_copies_(motion.weld.has_value())
-    , within_(motion.within ? std::optional(motion.within->value) : std::nullopt)
+    , within_(motion.within)
     , on_feature_edges_(vertices_of(motion.feature_edges))
     , open_(cut_open(mesh, topology, motion.feature_edges, progress.exec()))
     , strengths_(motion.strength)
@@ -78,9 +85,9 @@ DenoisingStepper::DenoisingStepper(const PolygonMesh& mesh, const Topology& topo
     if (motion.direction.kind != MotionDirection::Kind::Any)
         denoiser_.keep_rims();
     if (open_ && !strengths_.empty()) {
-        strengths_.resize(usize(open_->mesh.n_vertices()));
-        for (Index h = 0; h < mesh.n_corners(); ++h)
-            strengths_[open_->mesh.face_vertices[h]] = motion.strength[mesh.face_vertices[h]];
+        strengths_.clear();
+        for (const Index v : open_->vertex_of)
+            strengths_.push_back(motion.strength[v]);
     }
 }
 
@@ -101,11 +108,15 @@ RoundedMotion DenoisingStepper::rounded_motion() const
     if (rounding_.kind == Rounding::Kind::Given)
         motion.given_steps = rounding_.steps;
     motion.joins_copies = joins_copies_;
-    motion.within = within_;
+    if (within_ && within_->along_axes)
+        motion.within_along_axes =
+            Point(within_->lengths[0].value, within_->lengths[1].value, within_->lengths[2].value);
+    else if (within_)
+        motion.within = within_->lengths[0].value;
     return motion;
 }
 
-bool DenoisingStepper::smooth_within_steps(const Points& before, const Executor& exec)
+bool DenoisingStepper::smooth_within_rounding(const Points& before, const Executor& exec)
 {
     // After the first step there is nothing left to smooth within the bounds.
     if (rounding_.kind == Rounding::Kind::Never || noise_ || mesh_->n_faces() == 0)
@@ -118,9 +129,7 @@ bool DenoisingStepper::smooth_within_steps(const Points& before, const Executor&
     spikes_ = std::move(smoothed->spikes);
     rounded_ = {smoothed->steps, smoothed->fairing.iterations, smoothed->fairing.last_motion};
     is_rounded_ = std::move(smoothed->is_smoothed);
-    const std::vector<Index> faces = select(exec, mesh_->n_faces(), [&](Index f) {
-        return std::ranges::all_of(mesh_->face(f), [&](Index v) { return is_rounded_[v] == 0; });
-    });
+    const std::vector<Index> faces = select(exec, mesh_->n_faces(), [&](Index f) { return is_rounded_[f] == 0; });
     if (!faces.empty())
         remove_noise_of(faces, smoothed->is_copy, before, exec);
     return true;
@@ -129,18 +138,18 @@ bool DenoisingStepper::smooth_within_steps(const Points& before, const Executor&
 void DenoisingStepper::remove_noise_of(const std::vector<Index>& faces, const std::vector<std::uint8_t>& held,
                                        const Points& before, const Executor& exec)
 {
-    const MeshPiece piece = cut_out(*mesh_, *topology_, before, faces, exec);
-    std::vector<double> of_all = rounded_motion().strengths;
-    if (!held.empty()) {
-        of_all.resize(held.size(), 1.0);
-        for (std::size_t v = 0; v < held.size(); ++v)
-            if (held[v] != 0)
-                of_all[v] = 0.0;
-    }
+    MeshPiece piece =
+        cut_out(open_ ? open_->mesh : *mesh_, open_ ? open_->topology : *topology_, of_copies(before), faces, exec);
     std::vector<double> strengths;
-    if (!of_all.empty())
-        for (const Index v : piece.vertices)
-            strengths.push_back(of_all[v]);
+    for (std::size_t i = 0; i < piece.vertices.size(); ++i) {
+        Index& v = piece.vertices[i];
+        if (!strengths_.empty())
+            strengths.push_back(strengths_[v]);
+        if (open_)
+            v = open_->vertex_of[v];
+        if (!held.empty() && held[v] != 0)
+            piece.topology.fixed[i] = 1;
+    }
     MeshDenoiser denoiser(piece.mesh, piece.topology, exec, edge_angle_);
     if (direction_.kind != MotionDirection::Kind::Any)
         denoiser.keep_rims();
@@ -157,26 +166,24 @@ void DenoisingStepper::step(const Points& before)
     const Executor exec = loops_.begin();
     if (rounded_)
         positions_ = before;
-    else if (!smooth_within_steps(before, exec))
+    else if (!smooth_within_rounding(before, exec))
         remove_noise(before, exec);
     loops_.end();
     if (!positions_.allFinite())
         throw ComputationError("the result is not finite: scale the mesh to a size nearer to 1");
 }
 
+Points DenoisingStepper::of_copies(const Points& positions) const
+{
+    return open_ ? Points(positions(open_->vertex_of, Eigen::all)) : positions;
+}
+
 void DenoisingStepper::remove_noise(const Points& before, const Executor& exec)
 {
-    if (open_) {
-        // The mesh that is cut open has additional copies of a vertex on the other sides of feature edges. They do not
-        // move. The first copy has the number of the vertex.
-        Points of_copies(open_->mesh.n_vertices(), 3);
-        of_copies.topRows(before.rows()) = before;
-        for (Index h = 0; h < mesh_->n_corners(); ++h)
-            of_copies.row(open_->mesh.face_vertices[h]) = before.row(mesh_->face_vertices[h]);
-        positions_ = denoiser_.denoise(of_copies, strengths_, exec).topRows(before.rows());
-    } else {
+    if (open_)
+        positions_ = denoiser_.denoise(of_copies(before), strengths_, exec).topRows(before.rows());
+    else
         positions_ = denoiser_.denoise(before, strengths_, exec);
-    }
     if (noise_)
         return;
     noise_ = denoiser_.noise();
@@ -199,9 +206,9 @@ void DenoisingStepper::save(StepMemory& memory) const
         return;
     memory.numbers.insert(memory.numbers.end(), {rounded_->steps.x(), rounded_->steps.y(), rounded_->steps.z(),
                                                  static_cast<double>(rounded_->iterations), rounded_->last_motion});
-    memory.arrays.emplace_back(Points::Zero(mesh_->n_vertices(), 3));
-    for (Index v = 0; v < mesh_->n_vertices(); ++v)
-        memory.arrays.back()(v, 0) = is_rounded_[v];
+    memory.arrays.emplace_back(Points::Zero(mesh_->n_faces(), 3));
+    for (Index f = 0; f < mesh_->n_faces(); ++f)
+        memory.arrays.back()(f, 0) = is_rounded_[f];
 }
 
 void DenoisingStepper::restore(const StepMemory& memory)
@@ -224,10 +231,10 @@ void DenoisingStepper::restore(const StepMemory& memory)
             step = reader.number();
         rounded_->iterations = reader.count();
         rounded_->last_motion = reader.number();
-        const Points& flags = reader.array(mesh_->n_vertices());
-        is_rounded_.resize(usize(mesh_->n_vertices()));
-        for (Index v = 0; v < mesh_->n_vertices(); ++v)
-            is_rounded_[v] = flags(v, 0) != 0.0 ? 1 : 0;
+        const Points& flags = reader.array(mesh_->n_faces());
+        is_rounded_.resize(usize(mesh_->n_faces()));
+        for (Index f = 0; f < mesh_->n_faces(); ++f)
+            is_rounded_[f] = flags(f, 0) != 0.0 ? 1 : 0;
     }
     reader.require_end();
 }

@@ -37,10 +37,13 @@ class DenoisingStepper final : public WholeMeshStepper {
     void report_to(DenoiseReport& report) const override;
 
   private:
-    /// The mesh cut open along feature edges: with one vertex for each side of the feature edges at a vertex.
+    /// The mesh cut open along feature edges: with one copy of a vertex for each side of the feature edges there. The
+    /// first copy has the number of the vertex. Copies do not move where there are several.
     struct CutOpen {
         PolygonMesh mesh;
         Topology topology;
+        /// #V of `mesh`: the vertex of the mesh that each is a copy of.
+        std::vector<Index> vertex_of;
     };
 
     /// Cuts a mesh open along feature edges. @returns null without feature edges.
@@ -50,12 +53,14 @@ class DenoisingStepper final : public WholeMeshStepper {
     /// How vertices may move within the rounding of their coordinates.
     [[nodiscard]] RoundedMotion rounded_motion() const;
 
+    /// #V of the mesh on which noise is removed: the positions of the copies of vertices.
+    [[nodiscard]] Points of_copies(const Points& positions) const;
+
     /// In the first step: smooths within the bounds of rounded coordinates. @returns whether it did. It does nothing in
     /// later steps, if no coordinates are rounded, and if rounding explains the roughness of no component.
-    bool smooth_within_steps(const Points& before, const Executor& exec);
+    bool smooth_within_rounding(const Points& before, const Executor& exec);
 
-    /// Removes noise of components whose roughness rounding does not explain, beside those where it does. Normals are
-    /// averaged across feature edges here.
+    /// Removes noise of components whose roughness rounding does not explain, beside those where it does.
     /// @param faces those of these components, ascending. @param held #V: 1 at vertices that stay; empty: there are
     /// none.
     void remove_noise_of(const std::vector<Index>& faces, const std::vector<std::uint8_t>& held, const Points& before,
@@ -71,7 +76,7 @@ class DenoisingStepper final : public WholeMeshStepper {
     /// Whether copies of vertices may count as one.
     bool joins_copies_;
     /// The largest distance from the initial positions, in units of length.
-    std::optional<double> within_;
+    std::optional<MotionBound> within_;
     /// Ascending.
     std::vector<Index> on_feature_edges_;
     /// The mesh on which noise is removed; null without feature edges: then it is mesh_.
@@ -87,8 +92,7 @@ class DenoisingStepper final : public WholeMeshStepper {
     std::optional<SurfaceNoise> noise_;
     /// The rounding that the first step smoothed; nothing if no component is rounded.
     std::optional<RoundingReport> rounded_;
-    /// #V: 1 at vertices of components that the first step smoothed within the bounds of rounding; empty: there are
-    /// none.
+    /// #F: 1 in components that the first step smoothed within the bounds of rounding; empty: there are none.
     std::vector<std::uint8_t> is_rounded_;
     /// The spikes that stayed in the first step.
     std::vector<Spike> spikes_;

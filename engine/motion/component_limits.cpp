@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/tasks/parallel_executor.h"
+#include "partition/metrics/volume.h"
 #include "partition/vector_area.h"
 
 namespace seamflow {
@@ -25,7 +26,7 @@ LimitedComponents::LimitedComponents(const PolygonMesh& mesh, const Topology& to
     , limits_(limits)
     , normals_(mesh, topology)
     , components_(face_components(mesh, topology))
-    , is_closed_(usize(components_.count()), topology.oriented ? 1 : 0)
+    , is_closed_(usize(components_.count()))
     , initial_(mesh.vertices)
     , factors_(usize(components_.count()), 1.0)
     , losses_(usize(components_.count()))
@@ -35,10 +36,8 @@ LimitedComponents::LimitedComponents(const PolygonMesh& mesh, const Topology& to
         for (const Index f : components_.nodes[c]) {
             const auto corners = mesh.face(f);
             vertices.insert(vertices.end(), corners.begin(), corners.end());
-            for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h)
-                if (topology.twin[h] < 0)
-                    is_closed_[c] = 0;
         }
+        is_closed_[c] = encloses_volume(mesh, components_.nodes[c], run_in_parallel) ? 1 : 0;
         sort_unique(vertices);
         vertices_.values.insert(vertices_.values.end(), vertices.begin(), vertices.end());
         vertices_.close();
@@ -71,10 +70,9 @@ double LimitedComponents::volume_of(Index component, const Points& positions, do
 }
 
 /// The largest factor with which the volume of a closed component stays within its limit; 1 for open components.
-/// Records the change of volume in losses_ if it is beyond the limit.
+/// Records the change of volume in losses_ if it is beyond the limit, which leaves it as it is otherwise.
 double LimitedComponents::factor_by_volume(Index component, const Points& positions)
 {
-    losses_[component] = {};
     if (is_closed_[component] == 0)
         return 1.0;
     const double first = volume_of(component, positions, 0.0);
@@ -118,11 +116,25 @@ double LimitedComponents::factor_of(Index component, const Points& positions)
     return factor >= smallest_factor ? factor : 0.0;
 }
 
-/// Shortens the components of displacements that are tangential to the result.
-void LimitedComponents::limit_slides(Points& positions) const
+/// Whether a component is not limited.
+/// @param exempt #F, or empty.
+bool LimitedComponents::is_exempt(Index component, std::span<const std::uint8_t> exempt) const
 {
+    return !exempt.empty() && exempt[usize(components_.nodes[component].front())] != 0;
+}
+
+/// Shortens the parts of displacements that are tangential to the result.
+void LimitedComponents::limit_slides(Points& positions, std::span<const std::uint8_t> exempt) const
+{
+    std::vector<std::uint8_t> is_limited(usize(mesh_->n_vertices()), 0);
+    for (Index c = 0; c < components_.count(); ++c)
+        if (!is_exempt(c, exempt))
+            for (const Index v : vertices_[c])
+                is_limited[v] = 1;
     Points limited = positions;
     for_each(run_in_parallel, mesh_->n_vertices(), [&](Index v) {
+        if (is_limited[v] == 0)
+            return;
         const Point move = positions.row(v) - initial_.row(v);
         const Point normal = normals_(v, positions);
         const Point slide = move - move.dot(normal) * normal;
@@ -135,20 +147,21 @@ void LimitedComponents::limit_slides(Points& positions) const
 void LimitedComponents::apply(Points& positions, std::span<const std::uint8_t> exempt)
 {
     if (std::isfinite(limits_.slide))
-        limit_slides(positions);
-    const auto is_exempt = [&](Index v) { return exempt[usize(v)] != 0; };
+        limit_slides(positions, exempt);
+    std::vector<double> of_vertices(usize(mesh_->n_vertices()), 1.0);
     for (Index c = 0; c < components_.count(); ++c) {
-        factors_[c] = !exempt.empty() && std::ranges::all_of(vertices_[c], is_exempt) ? 1.0 : factor_of(c, positions);
-        if (factors_[c] == 1.0)
-            continue;
-        const std::span<const Index> vertices = vertices_[c];
-        for_each(run_in_parallel, static_cast<Index>(vertices.size()), [&](Index i) {
-            const Index v = vertices[i];
-            positions.row(v) = factors_[c] == 0.0
-                                   ? Point(initial_.row(v))
-                                   : initial_.row(v) + factors_[c] * (positions.row(v) - initial_.row(v));
-        });
+        losses_[c] = {};
+        factors_[c] = is_exempt(c, exempt) ? 1.0 : factor_of(c, positions);
+        if (factors_[c] < 1.0)
+            for (const Index v : vertices_[c])
+                of_vertices[v] = std::min(of_vertices[v], factors_[c]);
     }
+    for_each(run_in_parallel, mesh_->n_vertices(), [&](Index v) {
+        if (const double factor = of_vertices[v]; factor == 0.0)
+            positions.row(v) = initial_.row(v);
+        else if (factor < 1.0)
+            positions.row(v) = initial_.row(v) + factor * (positions.row(v) - initial_.row(v));
+    });
 }
 
 /// A text in brackets on the largest loss; empty if no component would have lost too much.
@@ -172,9 +185,11 @@ std::optional<Remark> LimitedComponents::remark() const
                                         : fmt::format("{} of {} components", n, components_.count());
     };
     std::string text;
-    const std::string loss = fmt::format("would have lost {}more than {:g} % of its volume{}",
-                                         std::isfinite(limits_.move) ? "more than its noise, or " : "",
-                                         100.0 * limits_.volume, largest_loss());
+    std::string loss = "would have lost ";
+    if (std::isfinite(limits_.move))
+        loss += std::isfinite(limits_.volume) ? "more than its noise, or " : "more than its noise";
+    if (std::isfinite(limits_.volume))
+        loss += fmt::format("more than {:g} % of its volume{}", 100.0 * limits_.volume, largest_loss());
     if (n_less > 0)
         text = fmt::format("{} {}: less was taken off there. <radius> smooths as much as it says.", components(n_less),
                            loss);

@@ -16,7 +16,8 @@ namespace seamflow {
 
 /// Limits the changes of the components of a surface (see ComponentLimits): if a component would change too much, its
 /// displacements are multiplied by a factor below 1: the largest that keeps the limits, or 0 if that is below 0.1. Such
-/// a blend of the surfaces before and after is like the result of a weaker filter.
+/// a blend of the surfaces before and after is like the result of a weaker filter. The smallest of their factors counts
+/// for a vertex of several components.
 class LimitedComponents {
   public:
     /// Measures the surface as it is. The mesh and topology must outlive the object.
@@ -25,8 +26,7 @@ class LimitedComponents {
 
     /// Moves the vertices of components that have changed too much back, on the straight lines to their initial
     /// positions.
-    /// @param positions #V by 3. @param exempt #V: 1 at vertices of components that are not limited; empty: there are
-    /// none.
+    /// @param positions #V by 3. @param exempt #F: 1 in components that are not limited; empty: there are none.
     void apply(Points& positions, std::span<const std::uint8_t> exempt = {});
 
     /// A sentence about the last result; empty if no component had changed too much.
@@ -39,7 +39,8 @@ class LimitedComponents {
         double fraction = 0.0;
     };
 
-    void limit_slides(Points& positions) const;
+    [[nodiscard]] bool is_exempt(Index component, std::span<const std::uint8_t> exempt) const;
+    void limit_slides(Points& positions, std::span<const std::uint8_t> exempt) const;
     [[nodiscard]] double volume_of(Index component, const Points& positions, double factor) const;
     [[nodiscard]] double factor_by_volume(Index component, const Points& positions);
     [[nodiscard]] double factor_by_move(Index component, const Points& positions) const;

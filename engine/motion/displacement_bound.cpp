@@ -1,7 +1,9 @@
 #include "engine/motion/displacement_bound.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "engine/tasks/parallel_executor.h"
@@ -19,8 +21,21 @@ constexpr double accuracy = 1e-4;
 
 }  // namespace
 
-DisplacementBound::DisplacementBound(const PolygonMesh& mesh, const Topology& topology, double bound)
-    : bound_(bound)
+MotionBound bound_along(const MotionDirection& direction, const MotionBound& bound)
+{
+    if (direction.kind != MotionDirection::Kind::Vector || !bound.along_axes)
+        return bound;
+    const Point unit = direction.vector.stableNormalized();
+    double distance = std::numeric_limits<double>::infinity();
+    for (unsigned axis = 0; axis < 3; ++axis)
+        if (unit[axis] != 0.0)
+            distance = std::min(distance, bound.lengths[axis].value / std::abs(unit[axis]));
+    return distance;
+}
+
+DisplacementBound::DisplacementBound(const PolygonMesh& mesh, const Topology& topology, const MotionBound& bound)
+    : lengths_(bound.lengths[0].value, bound.lengths[1].value, bound.lengths[2].value)
+    , along_axes_(bound.along_axes)
     , initial_(mesh.vertices)
 {
     for (Index v = 0; v < mesh.n_vertices(); ++v) {
@@ -30,10 +45,18 @@ DisplacementBound::DisplacementBound(const PolygonMesh& mesh, const Topology& to
     }
 }
 
+bool DisplacementBound::is_beyond(const Point& displacement) const
+{
+    return along_axes_ ? (displacement.cwiseAbs().array() > lengths_.array()).any()
+                       : displacement.stableNorm() > lengths_.x();
+}
+
 Point DisplacementBound::bounded(const Point& displacement) const
 {
-    const double length = displacement.stableNorm();
-    return length > bound_ ? Point(displacement * (bound_ / length)) : displacement;
+    if (!is_beyond(displacement))
+        return displacement;
+    return along_axes_ ? Point(displacement.cwiseMax(-lengths_).cwiseMin(lengths_))
+                       : Point(displacement * (lengths_.x() / displacement.stableNorm()));
 }
 
 void DisplacementBound::apply(Points& positions) const
@@ -41,12 +64,12 @@ void DisplacementBound::apply(Points& positions) const
     const auto n = static_cast<Index>(initial_.rows());
     const Points displacements = positions - initial_;
     const auto moves = [&](Index v) { return !displacements.row(v).isZero(0.0); };
-    std::atomic<bool> is_beyond = false;
+    std::atomic<bool> any_is_beyond = false;
     for_each(run_in_parallel, n, [&](Index v) {
-        if (moves(v) && displacements.row(v).stableNorm() > bound_)
-            is_beyond = true;
+        if (moves(v) && is_beyond(displacements.row(v)))
+            any_is_beyond = true;
     });
-    if (!is_beyond)
+    if (!any_is_beyond)
         return;
 
     // Nesterov's method for a strongly convex function: each step begins ahead of the last correction, in the direction

@@ -33,7 +33,7 @@ struct MotionConstraints {
             limited.emplace(mesh, topology, motion.limits);
         has_default_limits_ = motion.limits == ComponentLimits{.volume = ComponentLimits::most_volume_change};
         if (motion.within)
-            bound.emplace(mesh, topology, motion.within->value);
+            bound.emplace(mesh, topology, bound_along(motion.direction, *motion.within));
     }
 
     /// Whether results differ from the positions from which the flow continues.

@@ -54,8 +54,11 @@ void feather(MotionOptions& motion, double length, const PolygonMesh& mesh, cons
 
 MotionOptions with_lengths(MotionOptions motion, LengthScale& scale)
 {
-    for (std::optional<LengthOnMesh>* const length : {&motion.weld, &motion.within, &motion.feather})
+    for (std::optional<LengthOnMesh>* const length : {&motion.weld, &motion.feather})
         resolve(*length, scale);
+    if (motion.within)
+        for (LengthOnMesh& length : motion.within->lengths)
+            length = scale.length_of(length);
     if (motion.attachment_radius) {
         motion.attachment = attachment_of(*motion.attachment_radius, scale);
         motion.attachment_radius.reset();

@@ -36,7 +36,7 @@ class SurfaceStepper {
     /// similarity; vertices without faces keep their positions.
     virtual void set_positions(const Points& image, const SimilarityOfComponents& similarity) = 0;
 
-    /// #V: 1 at vertices of components that the stepper bounds itself, and whose volumes it restores: limits that were
+    /// #F: 1 in components that the stepper bounds itself, and whose volumes it restores: limits that were
     /// not asked for do not apply to them. Empty: there are none.
     [[nodiscard]] virtual std::span<const std::uint8_t> bounded() const { return {}; }
 

@@ -69,7 +69,7 @@ auto motion_table(Motion& motion)
     namespace group = option_group;
     return std::tuple{
         row(within, {"within", "--within", group::amount, concern::motion,
-                     "no vertex ends further than this from where it was\n"
+                     "no vertex ends further than this from where it was, in all directions or along x, y and z\n"
                      "Vertices beyond it are moved back to it, and their neighbours follow smoothly.",
                      positive("above 0 and finite (a length; empty: no bound)")}),
         row(rescale, {"rescale", "--rescale", group::amount, equation | concern::motion | whole_surface,

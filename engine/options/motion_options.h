@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -27,6 +28,30 @@ struct LengthOnMesh {
     bool of_diagonal;
 
     friend bool operator==(const LengthOnMesh&, const LengthOnMesh&) = default;
+};
+
+/// The largest distance of a vertex from where it was: one in all directions, `0.5`, or one along each of x, y and z,
+/// `{1.0, 1.0, 0.2}`, so that it stays in a box.
+struct MotionBound {
+    constexpr MotionBound(LengthOnMesh distance = {})
+        : lengths{distance, distance, distance}
+    {
+    }
+    constexpr MotionBound(double distance)
+        : MotionBound(LengthOnMesh(distance))
+    {
+    }
+    constexpr MotionBound(LengthOnMesh x, LengthOnMesh y, LengthOnMesh z)
+        : lengths{x, y, z}
+        , along_axes(true)
+    {
+    }
+
+    /// Equal if they are not along axes.
+    std::array<LengthOnMesh, 3> lengths;
+    bool along_axes = false;
+
+    friend bool operator==(const MotionBound&, const MotionBound&) = default;
 };
 
 /// How much is smoothed, in one of three ways.
@@ -167,9 +192,9 @@ struct MotionOptions {
     /// sphere. Every vertex with faces moves: none of them may be fixed.
     Rescale rescale = Rescale::None;
     /// Largest distance of any vertex from its first position, above 0. It bounds each result; the flow itself is not
-    /// changed. Vertices beyond it are put back to that distance, and their neighbours follow smoothly. nullopt: no
-    /// bound.
-    std::optional<LengthOnMesh> within = {};
+    /// changed. Vertices beyond it are put back to that distance, and their neighbours follow smoothly. Rounded
+    /// coordinates (see RemoveNoise::rounding) get the smoothest surface within it and half a step. nullopt: no bound.
+    std::optional<MotionBound> within = {};
     /// Limits of each result, like `within`.
     ComponentLimits limits = {};
 };

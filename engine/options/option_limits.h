@@ -29,6 +29,12 @@ inline void require_within(const OptionTraits& row, LengthOnMesh length)
     require_within(row, length.value);
 }
 
+inline void require_within(const OptionTraits& row, const MotionBound& bound)
+{
+    for (const LengthOnMesh& length : bound.lengths)
+        require_within(row, length);
+}
+
 template <class Value>
 void require_within(const OptionTraits& row, const std::optional<Value>& value)
 {

@@ -14,6 +14,12 @@ auto fields(Is<LengthOnMesh> auto& of)
     return std::tie(value, of_diagonal);
 }
 
+auto fields(Is<MotionBound> auto& of)
+{
+    auto& [lengths, along_axes] = of;
+    return std::tie(lengths[0], lengths[1], lengths[2], along_axes);
+}
+
 auto fields(Is<MotionDirection> auto& of)
 {
     auto& [kind, vector] = of;

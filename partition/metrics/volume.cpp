@@ -41,12 +41,10 @@ bool encloses_volume(const PolygonMesh& mesh, const Executor& exec)
     return mesh.n_faces() > 0 && sum(exec, mesh.n_faces(), hash_of, XXH64_hash_t{0}) == 0;
 }
 
-bool encloses_volume(const PolygonMesh& mesh, std::span<const Index> faces)
+bool encloses_volume(const PolygonMesh& mesh, std::span<const Index> faces, const Executor& exec)
 {
-    XXH64_hash_t all = 0;
-    for (const Index f : faces)
-        all += hash_of_face(mesh.face(f));
-    return !faces.empty() && all == 0;
+    const auto hash_of = [&](Index i) { return hash_of_face(mesh.face(faces[usize(i)])); };
+    return !faces.empty() && sum(exec, static_cast<Index>(faces.size()), hash_of, XXH64_hash_t{0}) == 0;
 }
 
 double volume_of_cones(const PolygonMesh& mesh, const Points& positions, const Point& origin, const Executor& exec)

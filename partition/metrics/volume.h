@@ -30,6 +30,6 @@ bool encloses_volume(const PolygonMesh& mesh, const Executor& exec);
 
 /// Whether these faces of the mesh, without the others, enclose a volume: run along each edge as often in one direction
 /// as in the other. False without faces.
-bool encloses_volume(const PolygonMesh& mesh, std::span<const Index> faces);
+bool encloses_volume(const PolygonMesh& mesh, std::span<const Index> faces, const Executor& exec = run_serially);
 
 }  // namespace seamflow

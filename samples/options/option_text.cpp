@@ -1,5 +1,6 @@
 #include "samples/options/option_text.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -44,17 +45,24 @@ std::optional<double> unit_of(std::string_view suffix)
     throw OptionError(fmt::format("\"{}\" {}", text, what));
 }
 
-/// Reads "X,Y,Z"; nothing for another text.
-std::optional<Point> parse_three(std::string_view text, const Limits& limits)
+/// The parts of "X,Y,Z"; nothing for a text without two commas.
+std::optional<std::array<std::string_view, 3>> split_in_three(std::string_view text)
 {
     const std::size_t first = text.find(',');
     const std::size_t second = first != std::string_view::npos ? text.find(',', first + 1) : first;
     if (second == std::string_view::npos)
         return std::nullopt;
+    return std::array{text.substr(0, first), text.substr(first + 1, second - first - 1), text.substr(second + 1)};
+}
+
+/// Reads "X,Y,Z"; nothing for another text.
+std::optional<Point> parse_three(std::string_view text, const Limits& limits)
+{
+    const auto parts = split_in_three(text);
+    if (!parts)
+        return std::nullopt;
     try {
-        return Point(parse_real(text.substr(0, first), limits),
-                     parse_real(text.substr(first + 1, second - first - 1), limits),
-                     parse_real(text.substr(second + 1), limits));
+        return Point(parse_real((*parts)[0], limits), parse_real((*parts)[1], limits), parse_real((*parts)[2], limits));
     } catch (const OptionError&) {
         return std::nullopt;
     }
@@ -112,6 +120,19 @@ LengthOnMesh parse_length(std::string_view text)
         return {parse_real(text.substr(0, text.size() - 1), positive()) / 100.0, true};
     } catch (const OptionError&) {
         refuse_text(text, "is neither a positive length (0.5) nor a part of the bounding box's diagonal (2%)");
+    }
+}
+
+MotionBound parse_bound(std::string_view text)
+{
+    try {
+        const auto parts = split_in_three(text);
+        return parts ? MotionBound(parse_length((*parts)[0]), parse_length((*parts)[1]), parse_length((*parts)[2]))
+                     : MotionBound(parse_length(text));
+    } catch (const OptionError&) {
+        refuse_text(text,
+                    "is neither a positive length (0.5), nor a part of the bounding box's diagonal (2%), nor three "
+                    "of these, along x, y and z (1,1,0.2)");
     }
 }
 

@@ -40,6 +40,9 @@ std::size_t parse_bytes(std::string_view text);
 /// @throws OptionError saying what was expected.
 LengthOnMesh parse_length(std::string_view text);
 
+/// Reads a length, or three with commas between them: along x, y and z. @throws OptionError for another text.
+MotionBound parse_bound(std::string_view text);
+
 /// "x", "y", "z", "normal", or a vector: "0,0.5,1". @throws OptionError for anything else.
 MotionDirection parse_direction(std::string_view text);
 
@@ -125,6 +128,8 @@ TextReader reader_of(Value& value, const Limits& limits)
         return reader_by(value, parse_bytes, "SIZE");
     else if constexpr (std::is_same_v<Value, std::optional<LengthOnMesh>>)
         return reader_by(value, parse_length, "LENGTH");
+    else if constexpr (std::is_same_v<Value, std::optional<MotionBound>>)
+        return reader_by(value, parse_bound, "LENGTH|X,Y,Z");
     else if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, std::optional<int>>)
         return reader_by(value, parse_whole, "INTEGER");
     else

@@ -35,6 +35,8 @@ def type_of(kind, is_flag):
     kind = kind.split(":")[0]
     if kind in ("NUMBER", "INTEGER"):
         return "float" if kind == "NUMBER" else "int"
+    if "X,Y,Z" in kind:
+        return "float | str | Sequence[float] | npt.NDArray[Any]"
     if kind.lower() != kind:
         return "float | str"
     return "Literal[" + ", ".join(f'"{word}"' for word in kind.split("|")) + "]"

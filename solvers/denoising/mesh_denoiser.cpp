@@ -107,6 +107,8 @@ MeshDenoiser::cut_polygons(const PolygonMesh& mesh, const Topology& topology, co
     for (const Triangle& triangle : triangulate(mesh))
         cut->mesh.add_face(triangle);
     cut->topology = make_topology(cut->mesh, exec);
+    if (!topology.junctions.empty())
+        free_junctions(cut->mesh, cut->topology, exec);
     cut->topology.kind = topology.kind;
     cut->topology.fixed = topology.fixed;
     return cut;

@@ -24,6 +24,8 @@ MeshPiece cut_out(const PolygonMesh& mesh, const Topology& topology, const Point
     piece.vertices = vertices.ascending();
     piece.mesh.vertices = positions(piece.vertices, Eigen::all);
     piece.topology = make_topology(piece.mesh, exec);
+    if (!topology.junctions.empty())
+        free_junctions(piece.mesh, piece.topology, exec);
     for_each(exec, piece.mesh.n_vertices(), [&](Index i) {
         piece.topology.kind[i] = topology.kind[piece.vertices[i]];
         piece.topology.fixed[i] = topology.fixed[piece.vertices[i]];

@@ -15,7 +15,7 @@ namespace seamflow {
 struct MeshPiece {
     /// The piece, with the given positions.
     PolygonMesh mesh;
-    /// With twins, and with the kinds and the fixed vertices of the whole mesh.
+    /// With twins and, if the whole mesh has them, junctions; with the kinds and the fixed vertices of the whole mesh.
     Topology topology;
     /// #F and #V of the piece: the numbers of its faces and vertices in the whole mesh, ascending.
     std::vector<Index> faces;

@@ -35,7 +35,7 @@ class Fairing {
         , weight_(static_cast<double>(std::max<Index>(neighbours.size(), 1)) /
                   static_cast<double>(std::max<std::size_t>(neighbours.values.size(), 1)))
         , middles_(boxes.middles(Eigen::all, columns))
-        , widths_(boxes.widths(Eigen::all, columns))
+        , widths_(boxes.half_widths(Eigen::all, columns))
         , umbrellas_(neighbours.size(), N)
         , steps_(usize(neighbours.size()))
     {
@@ -141,7 +141,7 @@ FairingReport fair_in_boxes(const IndexLists& neighbours, const Boxes& boxes, co
 {
     std::vector<int> columns;
     for (int axis = 0; axis < 3; ++axis)
-        if (!boxes.widths.col(axis).isZero(0.0))
+        if (!boxes.half_widths.col(axis).isZero(0.0))
             columns.push_back(axis);
     switch (columns.size()) {
     case 0:

@@ -10,22 +10,23 @@ namespace seamflow {
 struct Boxes {
     /// #V by 3: the middles of the boxes, and the largest distance from the middle along each axis, at least 0.
     const Points& middles;
-    const Points& widths;
+    const Points& half_widths;
 
-    /// Moves some coordinates to the nearest ones in a box. A coordinate of width 0 gets the bits of the middle.
+    /// Moves some coordinates to the nearest ones in a box. A coordinate of half-width 0 gets the bits of the middle.
     template <int N>
     [[nodiscard]] static Eigen::Matrix<double, 1, N> nearest(const Eigen::Matrix<double, 1, N>& middle,
-                                                             const Eigen::Matrix<double, 1, N>& width,
+                                                             const Eigen::Matrix<double, 1, N>& half_width,
                                                              const Eigen::Matrix<double, 1, N>& coordinates)
     {
-        const Eigen::Matrix<double, 1, N> clamped = coordinates.cwiseMax(middle - width).cwiseMin(middle + width);
-        return (width.array() > 0.0).select(clamped, middle);
+        const Eigen::Matrix<double, 1, N> clamped =
+            coordinates.cwiseMax(middle - half_width).cwiseMin(middle + half_width);
+        return (half_width.array() > 0.0).select(clamped, middle);
     }
 
     /// Moves a position to the nearest one in the box of vertex v.
     [[nodiscard]] Point nearest(Index v, const Point& position) const
     {
-        return nearest<3>(middles.row(v), widths.row(v), position);
+        return nearest<3>(middles.row(v), half_widths.row(v), position);
     }
 };
 

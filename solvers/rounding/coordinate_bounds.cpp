@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -31,6 +32,11 @@ constexpr double most_with_own_place = 0.99;
 /// Heights have at least this many planes with at least this fraction of the vertices.
 constexpr std::ptrdiff_t least_planes = 4;
 constexpr double part_of_plane = 0.005;
+/// The number of parts whose own steps are tried, the largest first, if not all parts have the same.
+constexpr std::size_t most_parts = 8;
+/// The fraction of the vertices on planes, for a part that has steps. Few of a part that has none are there by chance;
+/// many of a part that has been cut are not.
+constexpr double least_on_planes = 0.5;
 /// Steps that are given and found are the same if they differ by at most this fraction.
 constexpr double same_step = 0.01;
 
@@ -80,14 +86,14 @@ bounds_of_marching_cubes(const Points& points, const std::array<CoordinateSteps,
         CoordinateBounds bounds{.kind = CoordinateBounds::Kind::MarchingCubes};
         for (unsigned axis = 0; axis < 3; ++axis)
             bounds.steps[axis] = 2.0 * steps[axis].step;
-        bounds.widths = half_steps(points, bounds.steps);
+        bounds.half_widths = half_steps(points, bounds.steps);
         const double across =
             (has_equal_steps(bounds.steps) ? across_edge : across_edge_of_slices) * bounds.steps.minCoeff();
         for_each(exec, static_cast<Index>(points.rows()), [&](Index v) {
             if (const auto& bits = odd[usize(v)])
                 for (unsigned axis = 0; axis < 3; ++axis)
                     if ((*bits ^ of_lattice) != 1U << axis)
-                        bounds.widths(v, axis) = across;
+                        bounds.half_widths(v, axis) = across;
         });
         return bounds;
     }
@@ -149,8 +155,8 @@ bool has_several_planes(const Points& points, const CoordinateSteps& steps, unsi
     return std::ranges::count_if(counts, [many](const auto& plane) { return plane.second >= many; }) >= least_planes;
 }
 
-/// Vertices away from the lattice, with all their neighbours, have not been rounded: they get no width. Those beside
-/// vertices on it are of a cut through faces that were.
+/// Vertices away from the lattice, with all their neighbours, have not been rounded: they get no half-width. Those
+/// beside vertices on it are of a cut through faces that were.
 void hold_exact_vertices(const Points& points, const std::array<CoordinateSteps, 3>& steps,
                          const IndexLists& neighbours, CoordinateBounds& bounds, const Executor& exec)
 {
@@ -160,7 +166,7 @@ void hold_exact_vertices(const Points& points, const std::array<CoordinateSteps,
         const auto is_on_plane = [&](Index v) { return steps[axis].has(points(v, axis)); };
         for_each(exec, static_cast<Index>(points.rows()), [&](Index v) {
             if (!is_on_plane(v) && std::ranges::none_of(neighbours[v], is_on_plane))
-                bounds.widths(v, axis) = 0.0;
+                bounds.half_widths(v, axis) = 0.0;
         });
     }
 }
@@ -195,6 +201,73 @@ CoordinateBounds bounds_by_kind(const Points& points, const std::array<Coordinat
     return {CoordinateBounds::Kind::Any, of_all, half_steps(points, of_all)};
 }
 
+/// The vertices of parts that have steps.
+struct RoundedParts {
+    std::array<CoordinateSteps, 3> steps;
+    /// Ascending.
+    std::vector<Index> vertices;
+
+    /// The number of their coordinates that have steps.
+    [[nodiscard]] double n_coordinates() const
+    {
+        return static_cast<double>(vertices.size() * usize(static_cast<Index>(std::ranges::count_if(
+                                                         steps, [](const auto& of) { return of.step > 0.0; }))));
+    }
+};
+
+/// The parts that have given steps.
+/// @param parts the vertices of each.
+RoundedParts parts_with(const std::array<CoordinateSteps, 3>& steps, const Points& points, const IndexLists& parts)
+{
+    RoundedParts rounded{steps, {}};
+    for (Index part = 0; part < parts.size(); ++part) {
+        const std::span<const Index> vertices = parts[part];
+        const auto is_on_planes = [&](unsigned axis) {
+            const auto n = std::ranges::count_if(vertices, [&](Index v) { return steps[axis].has(points(v, axis)); });
+            return static_cast<double>(n) >= least_on_planes * static_cast<double>(vertices.size());
+        };
+        bool has_steps = true;
+        for (unsigned axis = 0; axis < 3; ++axis)
+            has_steps = has_steps && (steps[axis].step == 0.0 || is_on_planes(axis));
+        if (has_steps)
+            rounded.vertices.insert(rounded.vertices.end(), vertices.begin(), vertices.end());
+    }
+    std::ranges::sort(rounded.vertices);
+    return rounded;
+}
+
+/// The steps that most coordinates have, and the parts with them.
+/// @param used the vertices with faces, ascending. @param part_of see bounds_of.
+RoundedParts find_rounded_parts(const Points& points, const std::vector<Index>& used, std::span<const Index> part_of,
+                                double length, const Executor& exec)
+{
+    const auto steps_of = [&](std::span<const Index> vertices) {
+        return find_coordinate_steps(points(vertices, Eigen::all), length, exec);
+    };
+    if (part_of.empty())
+        return {steps_of(used), used};
+    const Index n_parts = 1 + *std::ranges::max_element(part_of);
+    const IndexLists parts = make_lists(n_parts, [&](auto&& add) {
+        for (const Index v : used)
+            add(part_of[v], v);
+    });
+    RoundedParts best = parts_with(steps_of(used), points, parts);
+    if (std::ranges::all_of(best.steps, [](const auto& of) { return of.step > 0.0; }))
+        return best;
+    std::vector<Index> largest(usize(n_parts));
+    std::iota(largest.begin(), largest.end(), Index{0});
+    std::ranges::stable_sort(largest, std::greater(), [&](Index part) { return parts[part].size(); });
+    largest.resize(std::min(largest.size(), most_parts));
+    for (const Index part : largest) {
+        if (parts[part].size() == used.size())
+            break;
+        RoundedParts own = parts_with(steps_of(parts[part]), points, parts);
+        if (own.n_coordinates() > best.n_coordinates())
+            best = std::move(own);
+    }
+    return best;
+}
+
 }  // namespace
 
 bool has_equal_steps(const Point& steps)
@@ -202,27 +275,27 @@ bool has_equal_steps(const Point& steps)
     return steps.maxCoeff() <= equal_steps * steps.minCoeff();
 }
 
-CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, double length, const Executor& exec)
+CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, std::span<const Index> part_of,
+                           double length, const Executor& exec)
 {
     // Vertices without faces may lie anywhere.
     const std::vector<Index> used =
         select(exec, static_cast<Index>(points.rows()), [&](Index v) { return !neighbours[v].empty(); });
-    const Points of_used = points(used, Eigen::all);
-    const std::array<CoordinateSteps, 3> steps = find_coordinate_steps(of_used, length, exec);
-    CoordinateBounds bounds = bounds_by_kind(of_used, steps, length, exec);
+    const RoundedParts rounded = find_rounded_parts(points, used, part_of, length, exec);
+    CoordinateBounds bounds = bounds_by_kind(points(rounded.vertices, Eigen::all), rounded.steps, length, exec);
     if (bounds.kind == CoordinateBounds::Kind::None)
         return bounds;
-    Points widths = Points::Zero(points.rows(), 3);
-    widths(used, Eigen::all) = bounds.widths;
-    bounds.widths = std::move(widths);
-    hold_exact_vertices(points, steps, neighbours, bounds, exec);
+    Points half_widths = Points::Zero(points.rows(), 3);
+    half_widths(rounded.vertices, Eigen::all) = bounds.half_widths;
+    bounds.half_widths = std::move(half_widths);
+    hold_exact_vertices(points, rounded.steps, neighbours, bounds, exec);
     return bounds;
 }
 
-CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, double length, const Point& steps,
-                           const Executor& exec)
+CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, std::span<const Index> part_of,
+                           double length, const Point& steps, const Executor& exec)
 {
-    CoordinateBounds found = bounds_of(points, neighbours, length, exec);
+    CoordinateBounds found = bounds_of(points, neighbours, part_of, length, exec);
     const auto agrees = [&](int axis) {
         if (found.steps[axis] == 0.0)
             return steps[axis] == 0.0 || found.kind == CoordinateBounds::Kind::Heights;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "partition/executor.h"
 #include "partition/index_lists.h"
 #include "partition/metrics/coordinate_steps.h"
@@ -27,22 +29,25 @@ struct CoordinateBounds {
     /// rounded.
     Point steps = Point::Zero();
     /// #V by 3: the largest difference of each coordinate from its present value, at least 0.
-    Points widths = Points(0, 3);
+    Points half_widths = Points(0, 3);
 };
 
 /// Whether x, y and z have steps of about the same size.
 bool has_equal_steps(const Point& steps);
 
-/// Finds the steps of a surface, and the bounds of its vertices. A vertex without neighbours gets width 0. So does a
-/// coordinate that lies on no plane, if those of all neighbours lie on none either: it was not rounded.
-/// @param points #V by 3. @param neighbours #V: the vertices that share an edge with each. @param length a length of
-/// edges: steps below a tenth of it cannot be seen, of heights below a hundredth, and do not count.
-CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, double length,
-                           const Executor& exec = run_serially);
+/// Finds the steps of a surface, and the bounds of its vertices. A vertex without neighbours gets half-width 0. So does
+/// a coordinate that lies on no plane, if those of all neighbours lie on none either: it was not rounded. Of several
+/// parts, some may have been rounded and others not: the steps are those that most vertices have, of all parts or of
+/// one of the largest, and the vertices of parts that do not have them get half-width 0.
+/// @param points #V by 3. @param neighbours #V: the vertices that share an edge with each. @param part_of #V: the part
+/// of each vertex, from 0, -1 without faces; empty: there is one part. @param length a length of edges: steps below a
+/// tenth of it cannot be seen, of heights below a hundredth, and do not count.
+CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, std::span<const Index> part_of,
+                           double length, const Executor& exec = run_serially);
 
 /// The bounds for steps that are known: those that are found if they have these steps, or are heights with this step;
 /// otherwise half a step for each coordinate. @param steps of x, y and z, at least 0.
-CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, double length, const Point& steps,
-                           const Executor& exec = run_serially);
+CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, std::span<const Index> part_of,
+                           double length, const Point& steps, const Executor& exec = run_serially);
 
 }  // namespace seamflow

@@ -11,35 +11,6 @@
 
 namespace seamflow {
 
-namespace {
-
-/// Whether faces enclose a volume: at each edge, as many run in one direction as in the other, also where more than two
-/// meet. Where sheets end, or are oriented against each other, there is no inside.
-bool is_closed(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> faces)
-{
-    // Edges that are not of two faces in opposite directions, and their directions.
-    std::vector<std::pair<Edge, int>> others;
-    for (const Index f : faces)
-        for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h) {
-            const Index v = mesh.face_vertices[h];
-            const Index w = mesh.face_vertices[topology.next(mesh, h)];
-            if (const Index twin = topology.twin[h]; twin < 0 || mesh.face_vertices[twin] == v)
-                others.push_back({{std::min(v, w), std::max(v, w)}, v < w ? 1 : -1});
-        }
-    std::ranges::sort(others);
-    int total = 0;
-    for (std::size_t i = 0; i < others.size(); ++i) {
-        total += others[i].second;
-        if (i + 1 == others.size() || others[i + 1].first != others[i].first) {
-            if (total != 0)
-                return false;
-        }
-    }
-    return true;
-}
-
-}  // namespace
-
 KeptVolumes::KeptVolumes(const PolygonMesh& mesh, const Topology& topology, const Components& components,
                          const Points& positions, const Executor& exec)
     : mesh_(mesh)
@@ -49,7 +20,7 @@ KeptVolumes::KeptVolumes(const PolygonMesh& mesh, const Topology& topology, cons
     , component_of_(usize(mesh.n_vertices()), -1)
 {
     for_each_component(exec, [&](Index c, const Executor& exec_of_faces) {
-        if (is_closed(mesh, topology, components_.nodes[c]))
+        if (encloses_volume(mesh, components_.nodes[c], exec_of_faces))
             kept_[c] = volume(c, positions, exec_of_faces);
     });
     for_each(exec, mesh.n_vertices(), [&](Index v) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -26,7 +27,7 @@ namespace {
 /// When rounding explains what is rough: if the fraction of bending that is left and the fraction of vertices near
 /// their bounds, times a weight, add up to at most a limit.
 struct Evidence {
-    /// A vertex is near a bound if it has moved by this fraction of its width.
+    /// A vertex is near a bound if it has moved by this fraction of its half-width.
     double near;
     double weight;
     double most;
@@ -58,18 +59,18 @@ Evidence evidence_for(CoordinateBounds::Kind kind)
 constexpr double last_motion = 0.002;
 constexpr int most_iterations = 400;
 
-/// Whether a vertex has moved by at least the fraction `near` of its width, in a direction in which bounds are widest,
-/// in steps; nothing for vertices with less than the whole bounds.
+/// Whether a vertex has moved by at least the fraction `near` of its half-width, in a direction in which bounds are
+/// widest, in steps; nothing for vertices with less than the whole bounds.
 std::optional<bool> is_near_bound(const Boxes& boxes, const Point& steps, double near, const Points& positions, Index v)
 {
     const Point motion = (positions.row(v) - boxes.middles.row(v)).cwiseAbs();
-    const Point width = boxes.widths.row(v);
-    const Point in_steps = (steps.array() > 0.0).select(width.array() / steps.array(), 0.0);
+    const Point half_width = boxes.half_widths.row(v);
+    const Point in_steps = (steps.array() > 0.0).select(half_width.array() / steps.array(), 0.0);
     // Within a part of the bounds, which a strength leaves, more vertices are near them.
     constexpr double nearly_half = 0.49;
     if (!(in_steps.maxCoeff() > nearly_half))
         return std::nullopt;
-    return (in_steps.array() >= near * in_steps.maxCoeff() && motion.array() >= near * width.array()).any();
+    return (in_steps.array() >= near * in_steps.maxCoeff() && motion.array() >= near * half_width.array()).any();
 }
 
 /// Per part: the fraction of the vertices with whole bounds that are near one; 1 without any: nothing shows that they
@@ -141,19 +142,25 @@ std::vector<double> fractions_of_bounds(const Topology& topology, const JoinedCo
 }
 
 /// The bounds of vertices that may move.
-/// @param fractions #V: the fraction of its bounds that each vertex gets.
-CoordinateBounds bounds_for(const MovingSurface& surface, const Points& positions, const std::vector<double>& fractions,
-                            const RoundedMotion& motion, const Executor& exec)
+/// @param parts those before copies are joined. @param fractions #V: the fraction of its bounds that each vertex gets.
+CoordinateBounds bounds_for(const MovingSurface& surface, const SurfaceParts& parts, const Points& positions,
+                            const std::vector<double>& fractions, const RoundedMotion& motion, const Executor& exec)
 {
     const double length = mean_edge_length(surface.mesh, positions, exec);
+    std::vector<Index> part_of;
+    if (parts.count() > 1) {
+        part_of.resize(usize(static_cast<Index>(positions.rows())));
+        for_each(exec, static_cast<Index>(positions.rows()), [&](Index v) { part_of[v] = parts.of_vertex(v); });
+    }
     CoordinateBounds bounds = motion.given_steps
-                                  ? bounds_of(positions, surface.neighbours, length, *motion.given_steps, exec)
-                                  : bounds_of(positions, surface.neighbours, length, exec);
+                                  ? bounds_of(positions, surface.neighbours, part_of, length, *motion.given_steps, exec)
+                                  : bounds_of(positions, surface.neighbours, part_of, length, exec);
     if (bounds.kind == CoordinateBounds::Kind::None)
         return bounds;
-    for_each(exec, static_cast<Index>(positions.rows()),
-             [&](Index v) { bounds.widths.row(v) = fractions[v] * bounds.widths.row(v).cwiseProduct(motion.axes); });
-    surface.copy_to_copies(bounds.widths);
+    for_each(exec, static_cast<Index>(positions.rows()), [&](Index v) {
+        bounds.half_widths.row(v) = fractions[v] * bounds.half_widths.row(v).cwiseProduct(motion.axes);
+    });
+    surface.copy_to_copies(bounds.half_widths);
     return bounds;
 }
 
@@ -188,8 +195,8 @@ void smooth_normals(const MovingSurface& surface, const KeptVolumes& volumes, co
 std::vector<std::uint8_t> explained_parts(const SurfaceParts& parts, const CoordinateBounds& bounds, const Boxes& boxes,
                                           const Points& positions, const Executor& exec)
 {
-    const std::vector<double> before = parts.bending(boxes.widths, boxes.middles, exec);
-    const std::vector<double> after = parts.bending(boxes.widths, positions, exec);
+    const std::vector<double> before = parts.bending(boxes.half_widths, boxes.middles, exec);
+    const std::vector<double> after = parts.bending(boxes.half_widths, positions, exec);
     const std::vector<double> near = fractions_near_bounds(parts, boxes, bounds, positions);
     const Evidence evidence = evidence_for(bounds.kind);
     std::vector<std::uint8_t> explained(before.size());
@@ -202,14 +209,15 @@ std::vector<std::uint8_t> explained_parts(const SurfaceParts& parts, const Coord
 /// Smooths a surface within bounds.
 class SmoothingInBounds {
   public:
-    /// @param mesh, topology before copies are joined. @param surface that moves. @param positions #V by 3. All must
-    /// outlive the object.
+    /// @param mesh, topology before copies are joined. @param parts of the mesh. @param surface that moves.
+    /// @param positions #V by 3. All must outlive the object.
     SmoothingInBounds(const PolygonMesh& mesh, const Topology& topology, const Components& components,
-                      const MovingSurface& surface, const Points& positions, const Executor& exec)
+                      const SurfaceParts& parts, const MovingSurface& surface, const Points& positions,
+                      const Executor& exec)
         : surface_(surface)
         , positions_(positions)
         , exec_(exec)
-        , parts_(mesh, topology, components)
+        , parts_(parts)
         , volumes_(surface.joined != nullptr ? surface.joined->all_faces : mesh, topology, components, positions, exec)
     {
         explained_.assign(usize(parts_.count()), 1);
@@ -223,8 +231,8 @@ class SmoothingInBounds {
     std::optional<SmoothedWithinSteps> smooth(CoordinateBounds bounds, bool judges)
     {
         if (!judges)
-            hold_others(bounds.widths);
-        const Boxes boxes{positions_, bounds.widths};
+            hold_others(bounds.half_widths);
+        const Boxes boxes{positions_, bounds.half_widths};
         SmoothedWithinSteps result{.positions = positions_, .steps = bounds.steps};
         const double smallest_step =
             (bounds.steps.array() > 0.0).select(bounds.steps, bounds.steps.maxCoeff()).minCoeff();
@@ -240,7 +248,7 @@ class SmoothingInBounds {
             if (std::ranges::find(explained_, 1) == explained_.end())
                 return std::nullopt;
         }
-        result.is_smoothed = hold_others(bounds.widths);
+        result.is_smoothed = hold_others(bounds.half_widths);
         for_each(exec_, static_cast<Index>(positions_.rows()),
                  [&](Index v) { result.positions.row(v) = boxes.nearest(v, result.positions.row(v)); });
         uncross_faces(surface_.mesh, surface_.topology, fair, boxes, result.positions, exec_);
@@ -250,18 +258,18 @@ class SmoothingInBounds {
 
   private:
     /// Takes the bounds of vertices of the parts that are not explained, and of all their copies.
-    /// @returns #V: 1 at the vertices of the others.
-    std::vector<std::uint8_t> hold_others(Points& widths) const
+    /// @returns #F: 1 in the other parts.
+    std::vector<std::uint8_t> hold_others(Points& half_widths) const
     {
-        const auto n = static_cast<Index>(positions_.rows());
-        std::vector<std::uint8_t> is_explained(usize(n), 0);
-        for (Index v = 0; v < n; ++v) {
-            const Index part = parts_.of_vertex(v);
-            is_explained[v] = part >= 0 ? explained_[part] : 0;
-            if (part >= 0 && is_explained[v] == 0)
-                widths.row(surface_.joined != nullptr ? surface_.joined->original_of[v] : v).setZero();
+        const PolygonMesh& mesh = parts_.mesh();
+        std::vector<std::uint8_t> is_explained(usize(mesh.n_faces()));
+        for (Index f = 0; f < mesh.n_faces(); ++f) {
+            is_explained[f] = explained_[parts_.of_face(f)];
+            if (is_explained[f] == 0)
+                for (const Index v : mesh.face(f))
+                    half_widths.row(surface_.joined != nullptr ? surface_.joined->original_of[v] : v).setZero();
         }
-        surface_.copy_to_copies(widths);
+        surface_.copy_to_copies(half_widths);
         return is_explained;
     }
 
@@ -269,19 +277,24 @@ class SmoothingInBounds {
     const Points& positions_;
     const Executor& exec_;
     /// Those before copies are joined.
-    SurfaceParts parts_;
+    const SurfaceParts& parts_;
     KeptVolumes volumes_;
     /// Per part: 1 if it moves.
     std::vector<std::uint8_t> explained_;
 };
 
-/// Bounds in which no vertex moves further than a distance.
-CoordinateBounds shortened(CoordinateBounds bounds, double distance)
+/// Bounds in which no vertex moves further than it may.
+CoordinateBounds shortened(CoordinateBounds bounds, const RoundedMotion& motion)
 {
-    const double n_axes = static_cast<double>((bounds.widths.colwise().maxCoeff().array() > 0.0).count());
+    const double n_axes = static_cast<double>((bounds.half_widths.colwise().maxCoeff().array() > 0.0).count());
     // So much shorter that rounding leads no vertex further.
     constexpr double rounding = 1e-12;
-    bounds.widths = bounds.widths.cwiseMin((1.0 - rounding) * distance / std::sqrt(std::max(n_axes, 1.0)));
+    Point most = Point::Constant(std::numeric_limits<double>::infinity());
+    if (motion.within)
+        most.setConstant(*motion.within / std::sqrt(std::max(n_axes, 1.0)));
+    if (motion.within_along_axes)
+        most = most.cwiseMin(*motion.within_along_axes);
+    bounds.half_widths = bounds.half_widths.cwiseMin(((1.0 - rounding) * most).replicate(bounds.half_widths.rows(), 1));
     return bounds;
 }
 
@@ -303,21 +316,23 @@ std::optional<SmoothedWithinSteps> smooth_rounded(const PolygonMesh& mesh, const
     }
     const JoinedCopies* const copies = joined ? &*joined : nullptr;
     const MovingSurface surface(joined ? joined->mesh : mesh, joined ? of_joined : topology, copies, exec);
-    const CoordinateBounds bounds =
-        bounds_for(surface, filled, fractions_of_bounds(topology, copies, motion, mesh.n_vertices()), motion, exec);
-    if (bounds.kind == CoordinateBounds::Kind::None || (!motion.given_steps && bounds.widths.isZero(0.0)))
+    const SurfaceParts parts(mesh, topology, components);
+    const CoordinateBounds bounds = bounds_for(
+        surface, parts, filled, fractions_of_bounds(topology, copies, motion, mesh.n_vertices()), motion, exec);
+    if (bounds.kind == CoordinateBounds::Kind::None || (!motion.given_steps && bounds.half_widths.isZero(0.0)))
         return std::nullopt;
-    SmoothingInBounds smoothing(mesh, topology, components, surface, filled, exec);
+    SmoothingInBounds smoothing(mesh, topology, components, parts, surface, filled, exec);
     const bool judges = !motion.given_steps;
+    const bool is_shortened = motion.within || motion.within_along_axes;
     std::optional<SmoothedWithinSteps> result;
     // Whether rounding explains what is rough shows in the whole bounds.
-    if (judges || !motion.within) {
+    if (judges || !is_shortened) {
         result = smoothing.smooth(bounds, judges);
         if (!result)
             return std::nullopt;
     }
-    if (motion.within)
-        result = smoothing.smooth(shortened(bounds, *motion.within), false);
+    if (is_shortened)
+        result = smoothing.smooth(shortened(bounds, motion), false);
     if (joined)
         result->is_copy = joined->shared_vertices();
     for (const Spike& spike : spikes)

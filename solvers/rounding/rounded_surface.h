@@ -24,8 +24,10 @@ struct RoundedMotion {
     std::optional<Point> given_steps = std::nullopt;
     /// Whether copies of a vertex where components touch move as one (see join_copies).
     bool joins_copies = true;
-    /// The largest distance of a vertex from where it was, in units of length; nothing: half a step alone bounds it.
+    /// The largest distance of a vertex from where it was, in units of length, and that along each axis; without them,
+    /// half a step alone bounds it.
     std::optional<double> within = std::nullopt;
+    std::optional<Point> within_along_axes = std::nullopt;
 };
 
 /// A surface that is as smooth as rounded coordinates allow.
@@ -36,8 +38,8 @@ struct SmoothedWithinSteps {
     Point steps = Point::Zero();
     /// The last motion is in smallest steps. Nothing for marching cubes of equal steps.
     FairingReport fairing = {};
-    /// #V: 1 at vertices of components that were smoothed, 0 at those whose roughness rounding does not explain, which
-    /// stayed.
+    /// #F: 1 in components that were smoothed, 0 in those whose roughness rounding does not explain: their vertices
+    /// stayed, also those that they share with others.
     std::vector<std::uint8_t> is_smoothed = {};
     /// #V: 1 at vertices where components touch, which are copies of each other; empty: there are none.
     std::vector<std::uint8_t> is_copy = {};

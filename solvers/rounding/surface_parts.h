@@ -17,6 +17,9 @@ class SurfaceParts {
     SurfaceParts(const PolygonMesh& mesh, const Topology& topology, const Components& components);
 
     [[nodiscard]] Index count() const { return count_; }
+    [[nodiscard]] const PolygonMesh& mesh() const { return mesh_; }
+
+    [[nodiscard]] Index of_face(Index f) const { return part_of_[components_.component_of[f]]; }
 
     /// The part of the first face of a vertex; -1 for vertices without faces.
     [[nodiscard]] Index of_vertex(Index v) const;
@@ -24,9 +27,9 @@ class SurfaceParts {
     /// The total bending of each part: Σ l θ over its edges of two faces, with the length l and the angle θ between the
     /// normals of the faces. It is the same for a convex body and its rounded copies, however sharp its edges are, and
     /// grows with every wave: what stairs add to it disappears with them.
-    /// @param widths #V by 3: the bounds of vertices. Edges of a vertex without any do not count.
+    /// @param half_widths #V by 3: the bounds of vertices. Edges of a vertex without any do not count.
     /// @param positions #V by 3.
-    [[nodiscard]] std::vector<double> bending(const Points& widths, const Points& positions,
+    [[nodiscard]] std::vector<double> bending(const Points& half_widths, const Points& positions,
                                               const Executor& exec = run_serially) const;
 
   private:
@@ -34,7 +37,7 @@ class SurfaceParts {
     static constexpr std::size_t small_component = 200;
 
     /// l θ of the edge of half-edge h; 0 for the higher of two half-edges.
-    [[nodiscard]] double bending_at(Index h, const Points& widths, const Points& positions) const;
+    [[nodiscard]] double bending_at(Index h, const Points& half_widths, const Points& positions) const;
 
     const PolygonMesh& mesh_;
     const Topology& topology_;

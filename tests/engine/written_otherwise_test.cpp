@@ -74,6 +74,7 @@ constexpr Allowance differences[]{
     {"some faces turned round", "seams", "", anything, "only edges that run in opposite directions are joined"},
     {"some faces turned round", "seams, copies first", "", anything, "the same"},
     {"turned", "", "rounded", anything, "steps are along the axes"},
+    {"turned", "", "within along axes", anything, "the same"},
     {"sliver at the boundary", "", "rounded", anything, "it is one neighbour more"},
     {"hole closed", "", "rounded", anything, "the same"},
     {"some faces turned round", "", "rounded", anything, "there is no volume"},

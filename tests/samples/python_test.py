@@ -494,6 +494,8 @@ class WrongInput(unittest.TestCase):
             (TypeError, "no keyword fix_property", (V, SIDES), {"fix_property": "a"}),
             (TypeError, "plain is True or False", (V, SIDES), {"plain": 1}),
             (TypeError, "radius is a number or a text", (V, SIDES), {"radius": [1]}),
+            (TypeError, "within is a number, three numbers or a text", (V, SIDES), {"within": [1, 1]}),
+            (ValueError, "is neither a positive length", (V, SIDES), {"within": [1, 1, 0]}),
             (TypeError, "fixed and fix are the same", (V, SIDES), {"fixed": [0], "fix": [0]}),
             (ValueError, "fixed names vertex 8, but the mesh has 8", (V, SIDES), {"fixed": [8]}),
             (ValueError, r"fixed has to be a mask .*\(8,\), but is bool, \(7,\)", (V, SIDES), {"fixed": [True] * 7}),

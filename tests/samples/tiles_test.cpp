@@ -329,8 +329,9 @@ TEST_CASE("lengths in percent and filters of several files are those of the whol
 {
     // So that the diagonal is not 1.
     const TiledWorkshop w("noisy-sphere", 4000, quarter);
-    for (const std::string flow : {" --time-step-edges 3 --attach 2%", " --time-step-edges 3 --within 0.2%",
-                                   " --time-step-edges 0.3 --filter low-pass --order 8"}) {
+    for (const std::string flow :
+         {" --time-step-edges 3 --attach 2%", " --time-step-edges 3 --within 0.2%",
+          " --time-step-edges 3 --within 0.2%,1%,0.05%", " --time-step-edges 0.3 --filter low-pass --order 8"}) {
         CAPTURE(flow);
         REQUIRE(w.smooth("whole.ply expected.ply" + flow + exact) == 0);
         REQUIRE(w.smooth(w.inputs() + "--out-dir out" + flow + exact) == 0);

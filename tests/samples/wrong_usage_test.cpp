@@ -190,6 +190,11 @@ TEST_CASE("what takes the whole mesh without equations rules out what is about t
              {"--radius 1% --boundary smooth --subdomains 3", "--boundary smooth" + whole + "sub-meshes"},
              {"--radius 1% --boundary smooth --keep-edges 30", "--boundary is smooth, so that it alone moves"},
              {"--time-step 1 --edges labels.txt", "--edges names edges to keep: give --preset cad, or --keep-edges"},
+             {"--within 1,1",
+              "--within: \"1,1\" is neither a positive length (0.5), nor a part of the bounding box's diagonal (2%), "
+              "nor three of these, along x, y and z (1,1,0.2)"},
+             {"--within 1,2%,0", "--within: \"1,2%,0\" is neither a positive length"},
+             {"--within -1", "--within: \"-1\" is neither a positive length"},
              {"--time-step 1 --keep-edges 30 --edges labels.txt --within 1",
               "--rescale and --within move vertices off --edges"},
          }) {

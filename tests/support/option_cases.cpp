@@ -202,8 +202,12 @@ const std::vector<OptionCase>& option_cases()
          plain([](O& o) { o.motion.rescale = Rescale::Volume, o.motion.boundary = Boundary::Free; })},
         {"within", "given", [](O& o, const PolygonMesh&, double edge) { o.motion.within = 0.1 * edge; }},
         {"within", "%", plain([](O& o) {
-             o.motion.within = {0.01, true};
+             o.motion.within = LengthOnMesh{0.01, true};
          })},
+        {"within", "along axes",
+         [](O& o, const PolygonMesh&, double edge) {
+             o.motion.within = {0.1 * edge, 0.05 * edge, 0.02 * edge};
+         }},
         {"limit_of_volume", "given", plain([](O& o) { o.motion.limits.volume = 0.01; })},
         {"limit_of_move", "given", [](O& o, const PolygonMesh&, double edge) { o.motion.limits.move = 0.05 * edge; }},
         {"limit_of_slide", "given", [](O& o, const PolygonMesh&, double edge) { o.motion.limits.slide = 0.05 * edge; }},

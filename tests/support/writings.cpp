@@ -44,6 +44,12 @@ struct Translation {
         if (length && !length->of_diagonal)
             length->value *= factor;
     }
+    void operator()(std::optional<MotionBound>& bound) const
+    {
+        if (bound)
+            for (LengthOnMesh& length : bound->lengths)
+                length.value *= length.of_diagonal ? 1.0 : factor;
+    }
     void operator()(Rounding& rounding) const { rounding.steps *= factor; }
     void operator()(MotionDirection& direction) const { direction.vector *= w.turn.transpose(); }
     void operator()(std::vector<double>& of_vertices) const

@@ -464,7 +464,7 @@ def _texts(keyword, value):
         nearest = difflib.get_close_matches(keyword, known, 1)
         meant = f", did you mean {nearest[0]}?" if nearest else f"; there are {', '.join(known)}"
         raise TypeError(f"there is no keyword {keyword}{meant}")
-    name, _, _, is_flag, _ = _OPTIONS[keyword]
+    name, kind, _, is_flag, _ = _OPTIONS[keyword]
     if is_flag:
         if value is not None and not isinstance(value, (bool, np.bool_)):
             raise TypeError(f"{keyword} is True or False, not {value!r}")
@@ -474,6 +474,11 @@ def _texts(keyword, value):
     if isinstance(value, numbers.Number) and not isinstance(value, (bool, np.bool_)):
         # NumPy's numbers as Python's, which are written with all their digits.
         value = value.item() if isinstance(value, np.generic) else value
+    elif "X,Y,Z" in kind and not isinstance(value, (str, bool, np.bool_)):
+        three = np.asarray(value)
+        if three.shape != (3,) or three.dtype.kind not in "fiu":
+            raise TypeError(f"{keyword} is a number, three numbers or a text, not {value!r}")
+        value = ",".join(str(number) for number in three.tolist())
     elif not isinstance(value, str):
         raise TypeError(f"{keyword} is a number or a text, not {value!r}")
     return [(f"--{name}", str(value))]

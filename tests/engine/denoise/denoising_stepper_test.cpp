@@ -18,6 +18,7 @@
 #include "solvers/laplacian/geometry.h"
 #include "tests/support/denoising.h"
 #include "tests/support/flows.h"
+#include "tests/support/junction_meshes.h"
 #include "tests/support/messages.h"
 #include "tests/support/preset_choices.h"
 #include "tests/support/random_meshes.h"
@@ -279,6 +280,27 @@ TEST_CASE("feature edges stay bit for bit, and what is on one side of them does 
     const DenoiseOptions without;
     CHECK(difference(of_changed, with) <
           0.2 * difference(denoised_positions(changed, without), denoised_positions(noisy, without)));
+}
+
+TEST_CASE("lines of three sheets move, also if a feature edge is kept elsewhere")
+{
+    const std::vector<double> angles{0.0, 2.0, 4.0};
+    const PolygonMesh clean = test::plates(angles, 15, 30);
+    const PolygonMesh noisy = test::with_gaussian_noise(clean, 0.2, 3);
+    const Topology topology = make_topology(noisy);
+    DenoiseOptions options;
+    const Points without = denoised_positions(noisy, options);
+    // At the outer end of the last plate.
+    const Index last = noisy.n_vertices() - 1;
+    options.motion.feature_edges = {{last - 1, last}};
+    const Points with = denoised_positions(noisy, options);
+    int n_moved = 0;
+    for (Index v = 0; v < noisy.n_vertices(); ++v)
+        if (topology.kind[v] == VertexKind::NonManifold && without.row(v) != noisy.vertices.row(v)) {
+            ++n_moved;
+            CHECK(with.row(v) != noisy.vertices.row(v));
+        }
+    CHECK(n_moved > 10);
 }
 
 TEST_CASE("the angle of edges that stay counts where there is little noise")

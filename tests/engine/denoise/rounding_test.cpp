@@ -205,6 +205,20 @@ TEST_CASE("rounded coordinates: walls keep together and volumes stay, of small s
     }
 }
 
+TEST_CASE("rounded coordinates: bounds along the axes, which percent may give, hold with those of rounding")
+{
+    const PolygonMesh before = voxel_ball();
+    PolygonMesh mesh = before;
+    DenoiseOptions options;
+    const double diagonal = (before.vertices.colwise().maxCoeff() - before.vertices.colwise().minCoeff()).norm();
+    options.motion.within = {0.2, LengthOnMesh(0.1 / diagonal, true), 3.0};
+    REQUIRE(denoise_in_place(mesh, options).rounding);
+    const Point furthest_along = (mesh.vertices - before.vertices).cwiseAbs().colwise().maxCoeff();
+    const Point bounds(0.2, 0.1, 0.5);
+    CHECK((furthest_along.array() <= bounds.array() * (1.0 + 1e-12)).all());
+    CHECK((furthest_along.array() >= 0.95 * bounds.array()).all());
+}
+
 TEST_CASE("rounded coordinates: a clean box stays where a rounded ball touches it")
 {
     const Inside in_box = [](const Point& point) {
@@ -327,4 +341,61 @@ TEST_CASE("noise of a component beside rounded ones is removed as without these,
     CHECK(moved.middleRows(noisy.n_vertices(), rounded.n_vertices()).cwiseAbs().maxCoeff() > 0.4);
     CHECK(names(report.choices, "rounded coordinates"));
     CHECK(names(report.choices, "noise"));
+}
+
+TEST_CASE("noise of a component beside rounded ones stops at feature edges, as without these")
+{
+    PolygonMesh noisy = test::with_gaussian_noise(test::triangle_grid(30, 30), 0.3, 4);
+    DenoiseOptions options;
+    for (Index k = 0; k < 30; ++k)
+        options.motion.feature_edges.push_back({31 * 15 + k, 31 * 15 + k + 1});
+    PolygonMesh mesh = test::together({noisy, voxel_faces(ball(14.3), 34)});
+    const PolygonMesh before = noisy;
+    REQUIRE(denoise_in_place(mesh, options).rounding);
+    denoise_in_place(noisy, options);
+    CHECK((mesh.vertices.topRows(noisy.n_vertices()) - noisy.vertices).cwiseAbs().maxCoeff() < 1e-9);
+    CHECK(same_bits(mesh.vertices.middleRows(31 * 15, 31), before.vertices.middleRows(31 * 15, 31)));
+    CHECK(furthest(noisy, before) > 0.1);
+    CHECK(same_bits(noisy.vertices.middleRows(31 * 15, 31), before.vertices.middleRows(31 * 15, 31)));
+}
+
+TEST_CASE("rounded coordinates of a component are found beside larger ones that are not rounded")
+{
+    PolygonMesh alone = voxel_faces(ball(10.3), 24);
+    const PolygonMesh noisy = test::with_gaussian_noise(test::triangle_grid(60, 60), 0.3, 4);
+    REQUIRE(noisy.n_vertices() > alone.n_vertices());
+    PolygonMesh mesh = test::together({noisy, alone});
+    const DenoiseReport report = denoise_in_place(mesh);
+    REQUIRE(report.rounding);
+    CHECK(report.rounding->steps == Point(1.0, 1.0, 1.0));
+    denoise_in_place(alone);
+    CHECK((mesh.vertices.bottomRows(alone.n_vertices()) - alone.vertices).cwiseAbs().maxCoeff() < 0.02);
+    PolygonMesh without = noisy;
+    denoise_in_place(without);
+    CHECK((mesh.vertices.topRows(noisy.n_vertices()) - without.vertices).cwiseAbs().maxCoeff() < 1e-9);
+}
+
+TEST_CASE("it does not matter which of two components that share a vertex comes first, if one is rounded")
+{
+    const PolygonMesh rounded = voxel_faces(ball(14.3), 34);
+    PolygonMesh noisy = make_noisy_sphere(600, {.amplitude = 0.0, .noise = 0.3});
+    // Vertex 0 of each is one vertex.
+    noisy.vertices = (4.0 * noisy.vertices).eval().rowwise() + (rounded.vertices.row(0) - 4.0 * noisy.vertices.row(0));
+    const auto joined = [](const PolygonMesh& first, const PolygonMesh& second) {
+        PolygonMesh mesh = test::together({first, second});
+        for (Index h = first.n_corners(); h < mesh.n_corners(); ++h)
+            if (mesh.face_vertices[h] == first.n_vertices())
+                mesh.face_vertices[h] = 0;
+        return mesh;
+    };
+    PolygonMesh rounded_first = joined(rounded, noisy);
+    PolygonMesh noisy_first = joined(noisy, rounded);
+    const PolygonMesh before = noisy_first;
+    REQUIRE(denoise_in_place(rounded_first).rounding);
+    REQUIRE(denoise_in_place(noisy_first).noise);
+    CHECK(furthest(noisy_first, before) > 0.4);
+    const Index n = noisy.n_vertices() - 1;
+    CHECK((noisy_first.vertices.middleRows(1, n) - rounded_first.vertices.bottomRows(n)).cwiseAbs().maxCoeff() < 0.02);
+    const Index m = rounded.n_vertices() - 1;
+    CHECK((noisy_first.vertices.bottomRows(m) - rounded_first.vertices.middleRows(1, m)).cwiseAbs().maxCoeff() < 0.02);
 }

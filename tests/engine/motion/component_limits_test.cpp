@@ -1,5 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -83,6 +87,76 @@ TEST_CASE("a remark says how much of its volume a component would have lost, in 
     positions = mesh.vertices * std::cbrt(0.99);
     limited.apply(positions);
     CHECK_FALSE(limited.remark());
+}
+
+TEST_CASE("whether a component is closed does not depend on faces of others that are turned")
+{
+    const PolygonMesh sphere = make_noisy_sphere(1000, {.amplitude = 0.0, .noise = 0.0});
+    PolygonMesh mesh = side_by_side({sphere, sphere});
+    std::swap(mesh.face_vertices[0], mesh.face_vertices[1]);
+    const Points shrunk = 0.95 * mesh.vertices;
+    Points positions = shrunk;
+    const Topology topology = make_topology(mesh);
+    LimitedComponents limited(mesh, topology, {.volume = 0.02});
+    limited.apply(positions);
+    CHECK(same_bits(positions.topRows(sphere.n_vertices()), shrunk.topRows(sphere.n_vertices())));
+    const double left = volume(half(mesh, positions, false)) / volume(half(mesh, mesh.vertices, false));
+    CHECK(left >= 0.98);
+    CHECK(left < 0.9801);
+}
+
+TEST_CASE("a vertex of two components follows the stricter limit, once, and components that are exempt stay")
+{
+    // The lowest vertex of one sphere is the first of the other.
+    PolygonMesh mesh = make_noisy_sphere(1000, {.amplitude = 0.0, .noise = 0.0});
+    const Index n = mesh.n_vertices();
+    const Index n_faces = mesh.n_faces();
+    const Points first = mesh.vertices;
+    Index lowest = 0;
+    first.col(2).minCoeff(&lowest);
+    mesh.vertices.conservativeResize(2 * n, 3);
+    mesh.vertices.bottomRows(n) = first.rowwise() + (first.row(lowest) - first.row(0));
+    for (Index f = 0; f < n_faces; ++f) {
+        std::vector<Index> corners(mesh.face(f).begin(), mesh.face(f).end());
+        for (Index& v : corners)
+            v = v == 0 ? lowest : v + n;
+        mesh.add_face(corners);
+    }
+    Points moved = mesh.vertices;
+    for (Index v = 0; v < 2 * n; ++v)
+        moved.row(v) *= v < n ? 0.99 : 0.95;
+    const auto factor_at = [&](const Points& positions, Index v) {
+        return (positions.row(v) - mesh.vertices.row(v)).norm() / (moved.row(v) - mesh.vertices.row(v)).norm();
+    };
+    const Topology topology = make_topology(mesh);
+    LimitedComponents limited(mesh, topology, {.volume = 0.02});
+    Points positions = moved;
+    limited.apply(positions);
+    const double of_first = factor_at(positions, lowest == 5 ? 6 : 5);
+    const double of_second = factor_at(positions, n + 5);
+    CHECK(of_second < 0.9 * of_first);
+    CHECK(factor_at(positions, lowest) == relative(of_second, 1e-9));
+    std::vector<std::uint8_t> exempt(usize(2 * n_faces), 0);
+    std::fill(exempt.begin() + n_faces, exempt.end(), std::uint8_t{1});
+    positions = moved;
+    limited.apply(positions, exempt);
+    CHECK(same_bits(positions.bottomRows(n), moved.bottomRows(n)));
+    CHECK(factor_at(positions, lowest) == relative(of_first, 1e-9));
+    positions = moved;
+    LimitedComponents(mesh, topology, {.slide = 1e-8}).apply(positions, exempt);
+    CHECK(same_bits(positions.bottomRows(n - 1), moved.bottomRows(n - 1)));
+    CHECK_FALSE(same_bits(positions.topRows(n), moved.topRows(n)));
+}
+
+TEST_CASE("a remark names the limits that there are")
+{
+    const PolygonMesh mesh = make_noisy_sphere(500, {.amplitude = 0.0, .noise = 0.0});
+    const Topology topology = make_topology(mesh);
+    LimitedComponents limited(mesh, topology, {.move = 0.05});
+    Points positions = 0.8 * mesh.vertices;
+    limited.apply(positions);
+    CHECK(sentence(limited.remark().value()).find("would have lost more than its noise: less was taken off") !=
+          std::string::npos);
 }
 
 TEST_CASE("where less than a tenth would be left nothing is moved")

@@ -82,6 +82,49 @@ TEST_CASE("what is held pulls along its own displacement alone, and what is not 
     CHECK(inwards < 0.02 * correction_size);
 }
 
+TEST_CASE("no coordinate goes further than its own bound, and the others give way smoothly")
+{
+    const Example e;
+    const Points moves = (e.moved - e.mesh.vertices).cwiseAbs();
+    const Point lengths(0.5 * moves.col(0).maxCoeff(), 0.9 * moves.col(1).maxCoeff(), 1e-3 * moves.col(2).maxCoeff());
+    Points positions = e.moved;
+    DisplacementBound(e.mesh, e.topology, {lengths.x(), lengths.y(), lengths.z()}).apply(positions);
+    const Points bounded = positions - e.mesh.vertices;
+    const Points cut = (e.moved - e.mesh.vertices)
+                           .cwiseMin(lengths.replicate(e.mesh.n_vertices(), 1))
+                           .cwiseMax(-lengths.replicate(e.mesh.n_vertices(), 1));
+    const auto roughness = [&](const Points& points) {
+        double total = 0.0;
+        for (Index v = 0; v < e.mesh.n_vertices(); ++v)
+            for (const Index w : neighbours_of(e.mesh, e.topology, v))
+                total += ((points - e.moved).row(v) - (points - e.moved).row(w)).squaredNorm();
+        return total;
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+        CHECK(bounded.col(axis).cwiseAbs().maxCoeff() <= lengths[axis] * (1.0 + 1e-12));
+        CHECK(bounded.col(axis).cwiseAbs().maxCoeff() >= lengths[axis] * (1.0 - 1e-9));
+    }
+    CHECK(roughness(positions) < 0.9 * roughness(e.mesh.vertices + cut));
+    positions = e.moved;
+    DisplacementBound(e.mesh, e.topology, {2.0, 2.0, 2.0}).apply(positions);
+    CHECK(same_bits(positions, e.moved));
+}
+
+TEST_CASE("vertices that move along a direction stay on it, within the bounds along the axes")
+{
+    const Example e;
+    FlowOptions options;
+    options.time_step = 20.0 * e.edge * e.edge;
+    options.motion.direction = {MotionDirection::Kind::Vector, Point(1.0, 2.0, -2.0)};
+    const Point lengths(0.02 * e.edge, 0.5 * e.edge, 0.1 * e.edge);
+    options.motion.within = {lengths.x(), lengths.y(), lengths.z()};
+    const Points bounded = flowed(e.mesh, options) - e.mesh.vertices;
+    for (Index v = 0; v < e.mesh.n_vertices(); ++v)
+        CHECK(Point(bounded.row(v)).cross(options.motion.direction.vector).norm() <= 1e-12 * e.edge);
+    CHECK(bounded.col(0).cwiseAbs().maxCoeff() <= lengths.x() * (1.0 + 1e-9));
+    CHECK(bounded.col(0).cwiseAbs().maxCoeff() >= lengths.x() * (1.0 - 1e-6));
+}
+
 TEST_CASE("what gives way is smoother than what is cut off at the bound")
 {
     const Example e;

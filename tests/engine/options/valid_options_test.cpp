@@ -28,6 +28,11 @@ std::string refusal_of(const FlowOptions& options)
     return test::message_of([&] { require_valid(options); });
 }
 
+void put(MotionBound& to, double value)
+{
+    to = {1.0, 1.0, value};
+}
+
 void put(LengthOnMesh& to, double value)
 {
     to.value = value;

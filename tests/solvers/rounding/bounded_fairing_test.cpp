@@ -16,17 +16,17 @@ namespace {
 struct Problem {
     PolygonMesh mesh = test::rounded(
         test::height_grid(14, [](double x, double y) { return 2.0 * std::sin(x / 4.0) + 0.2 * y; }), Point(0, 0, 1));
-    Points widths = Point(0.0, 0.2, 0.5).replicate(mesh.n_vertices(), 1);
+    Points half_widths = Point(0.0, 0.2, 0.5).replicate(mesh.n_vertices(), 1);
     Topology topology = make_topology(mesh);
     VertexAverages averages{mesh, topology};
 
-    Problem() { widths.row(20).setZero(); }
+    Problem() { half_widths.row(20).setZero(); }
 
     [[nodiscard]] Points faired(const FairingStop& stop, FairingReport& report,
                                 const Executor& exec = run_serially) const
     {
         Points positions = mesh.vertices;
-        report = fair_in_boxes(averages.neighbours(), {mesh.vertices, widths}, stop, positions, exec);
+        report = fair_in_boxes(averages.neighbours(), {mesh.vertices, half_widths}, stop, positions, exec);
         return positions;
     }
 
@@ -58,7 +58,7 @@ TEST_CASE("no motion within the boxes makes the surface fairer")
     for (Index v = 0; v < positions.rows(); ++v)
         for (int axis = 0; axis < 3; ++axis) {
             const double motion = positions(v, axis) - problem.mesh.vertices(v, axis);
-            const double width = problem.widths(v, axis);
+            const double width = problem.half_widths(v, axis);
             CHECK(std::abs(motion) <= width * (1.0 + 1e-12));
             const bool is_at_bound = std::abs(motion) > width - 1e-9;
             n_at_bounds += is_at_bound && width > 0.0 ? 1 : 0;

@@ -23,7 +23,7 @@ CoordinateBounds found_for(const Points& points, double length = 1.0)
         neighbours.values.push_back((v + n - 1) % n);
         neighbours.close();
     }
-    return bounds_of(points, neighbours, length, run_in_parallel);
+    return bounds_of(points, neighbours, {}, length, run_in_parallel);
 }
 
 double slope(double x, double y)
@@ -43,7 +43,7 @@ TEST_CASE("each coordinate of voxels lies within half a step")
     const CoordinateBounds bounds = found_for(test::voxel_faces(ball(7.3), 20).vertices);
     CHECK(bounds.kind == Kind::Any);
     CHECK((bounds.steps - Point::Ones()).cwiseAbs().maxCoeff() < 1e-9);
-    CHECK((bounds.widths.array() - 0.5).abs().maxCoeff() < 1e-9);
+    CHECK((bounds.half_widths.array() - 0.5).abs().maxCoeff() < 1e-9);
 }
 
 TEST_CASE("vertices of marching cubes stay near the edge of the lattice on which they are")
@@ -59,7 +59,7 @@ TEST_CASE("vertices of marching cubes stay near the edge of the lattice on which
             for (int axis = 0; axis < 3; ++axis) {
                 const double planes = mesh.vertices(v, axis) / spacing[axis];
                 const bool is_between = std::abs(planes - std::round(planes)) > 0.25;
-                const double width = bounds.widths(v, axis);
+                const double width = bounds.half_widths(v, axis);
                 along += is_between ? 1 : 0;
                 if (is_between)
                     CHECK(std::abs(width - 0.5 * spacing[axis]) < 1e-9);
@@ -86,7 +86,7 @@ TEST_CASE("heights move, and their places do not: on a grid, at any places, and 
             const CoordinateBounds bounds = found_for(turned);
             CHECK(bounds.kind == Kind::Heights);
             for (int k = 0; k < 3; ++k)
-                CHECK((bounds.widths.col(k).array() - (k == axis ? 0.25 : 0.0)).abs().maxCoeff() < 1e-9);
+                CHECK((bounds.half_widths.col(k).array() - (k == axis ? 0.25 : 0.0)).abs().maxCoeff() < 1e-9);
         }
 }
 
