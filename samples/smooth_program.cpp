@@ -69,9 +69,10 @@ ExitStatus run(SmoothCommand& command, RunRecord& run, RankGroup* ranks)
     FaultLog left_out{.of_faces_alone = true};
     MeshFile file = read_surface(command.input, command.options.motion.strict ? nullptr : &left_out, exec);
     read_named_files(command, file.mesh, left_out.faces_left_out);
+    run.read_seconds = whole.seconds();
     run.scale = measure_scale(file.mesh, exec);
     about_file(command.input, [&] { resolve_amount(command, file.mesh, exec, run); });
-    run.read_seconds = whole.seconds();
+    run.choose_seconds = whole.seconds() - run.read_seconds;
     print_start(out, run, file.mesh.n_vertices(), file.mesh.n_faces(), command.options);
     const MeshOutput output(command.output, file, command.options.motion.weld);
     output.require_storable();

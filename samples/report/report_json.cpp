@@ -146,11 +146,17 @@ Json total_json(const TotalDisplacement& total, double mean_edge)
 
 Json seconds_json(const RunRecord& run, const PhaseSeconds& seconds)
 {
-    return {{"read", json_number(run.read_seconds)},       {"cut", json_number(seconds.cut)},
-            {"analyse", json_number(seconds.analyse)},     {"assemble", json_number(seconds.assemble)},
-            {"factorise", json_number(seconds.factorise)}, {"solve", json_number(seconds.solve)},
-            {"correct", json_number(seconds.correct)},     {"interface", json_number(seconds.interface)},
-            {"step", json_number(seconds.step)},           {"total", json_number(seconds.total)},
+    return {{"read", json_number(run.read_seconds)},
+            {"choose", json_number(run.choose_seconds)},
+            {"cut", json_number(seconds.cut)},
+            {"analyse", json_number(seconds.analyse)},
+            {"assemble", json_number(seconds.assemble)},
+            {"factorise", json_number(seconds.factorise)},
+            {"solve", json_number(seconds.solve)},
+            {"correct", json_number(seconds.correct)},
+            {"interface", json_number(seconds.interface)},
+            {"step", json_number(seconds.step)},
+            {"total", json_number(seconds.total)},
             {"write", json_number(run.write_seconds)}};
 }
 

@@ -217,7 +217,7 @@ void print_ranks(std::ostream& out, const RunRecord& run, int n_ranks)
 
 std::string time_of(const RunRecord& run, const PhaseSeconds& phases)
 {
-    const double set_up = phases.cut + phases.analyse;
+    const double set_up = run.choose_seconds + phases.cut + phases.analyse;
     const double saved = run.checkpoint_seconds;
     const double rest = run.seconds - run.read_seconds - set_up - phases.step - saved - run.write_seconds;
     return fmt::format("time       {:.3g} s: read {:.3f}, set-up {:.3f}, steps {:.3f}, {}write {:.3f}, rest {:.3f}",

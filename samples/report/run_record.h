@@ -34,6 +34,8 @@ struct RunRecord {
     /// Wall-clock time for reading all inputs and for writing all results, except for report and trace.
     double read_seconds = 0.0;
     double write_seconds = 0.0;
+    /// For measuring the surface, and choosing how much to smooth.
+    double choose_seconds = 0.0;
     /// For saving checkpoints.
     double checkpoint_seconds = 0.0;
     /// Of the whole run until now.

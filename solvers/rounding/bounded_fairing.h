@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "partition/executor.h"
 #include "partition/index_lists.h"
 #include "partition/polygon_mesh.h"
@@ -11,6 +14,8 @@ struct Boxes {
     /// #V by 3: the middles of the boxes, and the largest distance from the middle along each axis, at least 0.
     const Points& middles;
     const Points& half_widths;
+    /// #V: bit k is 1 where the surface is flat across axis k (see flat_facets); empty: nowhere.
+    std::span<const std::uint8_t> flat = {};
 
     /// Moves some coordinates to the nearest ones in a box. A coordinate of half-width 0 gets the bits of the middle.
     template <int N>

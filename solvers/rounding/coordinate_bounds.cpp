@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "solvers/rounding/flat_facets.h"
+
 namespace seamflow {
 
 namespace {
@@ -37,6 +39,9 @@ constexpr std::size_t most_parts = 8;
 /// The fraction of the vertices on planes, for a part that has steps. Few of a part that has none are there by chance;
 /// many of a part that has been cut are not.
 constexpr double least_on_planes = 0.5;
+/// Faces over a plane cover at most this many times the rectangle around them: more if some overlap, as tiles may;
+/// those of closed surfaces lie above each other.
+constexpr double most_covered = 1.2;
 /// Steps that are given and found are the same if they differ by at most this fraction.
 constexpr double same_step = 0.01;
 
@@ -120,9 +125,11 @@ double count_planes(const Points& points, const CoordinateSteps& steps, unsigned
 
 /// The coordinate that is a height over the other two, in which nearly all vertices have places of their own: heights
 /// on a grid, whether they are rounded or not, or rounded heights at any places; nothing for other surfaces.
+/// @param seen see SurfaceSize.
 std::optional<unsigned> axis_of_heights(const Points& points, const std::array<CoordinateSteps, 3>& steps,
-                                        const Point& visible)
+                                        const Point& visible, const Point& seen)
 {
+    const Point extent = points.colwise().maxCoeff() - points.colwise().minCoeff();
     std::optional<unsigned> found;
     // Of several, such as on a steep slope, where height and one coordinate make a place, too, that above the grid
     // which the vertices fill best.
@@ -131,7 +138,8 @@ std::optional<unsigned> axis_of_heights(const Points& points, const std::array<C
         const unsigned first = (axis + 1) % 3;
         const unsigned second = (axis + 2) % 3;
         const bool is_grid = steps[first].step > 0.0 && steps[second].step > 0.0;
-        if (!(is_grid || visible[axis] > 0.0) || !have_own_places(points, first, second))
+        if (!(is_grid || visible[axis] > 0.0) || seen[axis] > most_covered * extent[first] * extent[second] ||
+            !have_own_places(points, first, second))
             continue;
         const double filled =
             is_grid ? static_cast<double>(points.rows()) /
@@ -172,20 +180,20 @@ void hold_exact_vertices(const Points& points, const std::array<CoordinateSteps,
 }
 
 /// The bounds by the kind of surface, without regard to single vertices.
-CoordinateBounds bounds_by_kind(const Points& points, const std::array<CoordinateSteps, 3>& steps, double length,
-                                const Executor& exec)
+CoordinateBounds bounds_by_kind(const Points& points, const std::array<CoordinateSteps, 3>& steps,
+                                const SurfaceSize& size, const Executor& exec)
 {
     const auto visible = [&](double least) {
         Point found = Point::Zero();
         for (unsigned axis = 0; axis < 3; ++axis)
-            if (steps[axis].step >= least * length)
+            if (steps[axis].step >= least * size.edge)
                 found[axis] = steps[axis].step;
         return found;
     };
     const Point of_heights = visible(least_visible_height);
     if (of_heights.isZero(0.0))
         return {};
-    if (const std::optional<unsigned> axis = axis_of_heights(points, steps, of_heights)) {
+    if (const std::optional<unsigned> axis = axis_of_heights(points, steps, of_heights, size.seen)) {
         Point heights = Point::Zero();
         heights[*axis] = of_heights[*axis];
         if (heights.isZero(0.0) || !has_several_planes(points, steps[*axis], *axis))
@@ -276,26 +284,27 @@ bool has_equal_steps(const Point& steps)
 }
 
 CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, std::span<const Index> part_of,
-                           double length, const Executor& exec)
+                           const SurfaceSize& size, const Executor& exec)
 {
     // Vertices without faces may lie anywhere.
     const std::vector<Index> used =
         select(exec, static_cast<Index>(points.rows()), [&](Index v) { return !neighbours[v].empty(); });
-    const RoundedParts rounded = find_rounded_parts(points, used, part_of, length, exec);
-    CoordinateBounds bounds = bounds_by_kind(points(rounded.vertices, Eigen::all), rounded.steps, length, exec);
+    const RoundedParts rounded = find_rounded_parts(points, used, part_of, size.edge, exec);
+    CoordinateBounds bounds = bounds_by_kind(points(rounded.vertices, Eigen::all), rounded.steps, size, exec);
     if (bounds.kind == CoordinateBounds::Kind::None)
         return bounds;
     Points half_widths = Points::Zero(points.rows(), 3);
     half_widths(rounded.vertices, Eigen::all) = bounds.half_widths;
     bounds.half_widths = std::move(half_widths);
     hold_exact_vertices(points, rounded.steps, neighbours, bounds, exec);
+    bounds.flat = flat_facets(points, neighbours, rounded.steps, bounds.steps, exec);
     return bounds;
 }
 
 CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, std::span<const Index> part_of,
-                           double length, const Point& steps, const Executor& exec)
+                           const SurfaceSize& size, const Point& steps, const Executor& exec)
 {
-    CoordinateBounds found = bounds_of(points, neighbours, part_of, length, exec);
+    CoordinateBounds found = bounds_of(points, neighbours, part_of, size, exec);
     const auto agrees = [&](int axis) {
         if (found.steps[axis] == 0.0)
             return steps[axis] == 0.0 || found.kind == CoordinateBounds::Kind::Heights;

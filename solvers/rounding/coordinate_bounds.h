@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "partition/executor.h"
 #include "partition/index_lists.h"
@@ -18,7 +20,7 @@ struct CoordinateBounds {
         /// Each coordinate lies within half a step of the true one: faces of voxels.
         Any,
         /// Heights over a plane: one coordinate is rounded, and the two others are exact, because no two vertices have
-        /// the same values of both.
+        /// the same values of both, and no part of the surface is above another.
         Heights,
         /// The surface of marching cubes in a mask: each vertex is in the middle of an edge of the lattice of voxels,
         /// which the true surface crosses somewhere else.
@@ -30,6 +32,17 @@ struct CoordinateBounds {
     Point steps = Point::Zero();
     /// #V by 3: the largest difference of each coordinate from its present value, at least 0.
     Points half_widths = Points(0, 3);
+    /// #V: bit k is 1 where the surface is flat across axis k (see flat_facets); empty: nowhere. Half-widths there are
+    /// as elsewhere.
+    std::vector<std::uint8_t> flat = {};
+};
+
+/// How large a surface and its edges are.
+struct SurfaceSize {
+    /// The mean length of edges.
+    double edge = 0.0;
+    /// The areas of all faces as seen along x, y and z, in length².
+    Point seen = Point::Zero();
 };
 
 /// Whether x, y and z have steps of about the same size.
@@ -40,14 +53,14 @@ bool has_equal_steps(const Point& steps);
 /// parts, some may have been rounded and others not: the steps are those that most vertices have, of all parts or of
 /// one of the largest, and the vertices of parts that do not have them get half-width 0.
 /// @param points #V by 3. @param neighbours #V: the vertices that share an edge with each. @param part_of #V: the part
-/// of each vertex, from 0, -1 without faces; empty: there is one part. @param length a length of edges: steps below a
-/// tenth of it cannot be seen, of heights below a hundredth, and do not count.
+/// of each vertex, from 0, -1 without faces; empty: there is one part. @param size of the surface: steps below a tenth
+/// of its edges cannot be seen, of heights below a hundredth, and do not count.
 CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, std::span<const Index> part_of,
-                           double length, const Executor& exec = run_serially);
+                           const SurfaceSize& size, const Executor& exec = run_serially);
 
 /// The bounds for steps that are known: those that are found if they have these steps, or are heights with this step;
 /// otherwise half a step for each coordinate. @param steps of x, y and z, at least 0.
 CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, std::span<const Index> part_of,
-                           double length, const Point& steps, const Executor& exec = run_serially);
+                           const SurfaceSize& size, const Point& steps, const Executor& exec = run_serially);
 
 }  // namespace seamflow

@@ -39,7 +39,7 @@ class NormalsInBoxes {
     /// The bending of each part at other positions, #V by 3.
     [[nodiscard]] std::vector<double> bending(const Points& positions) const
     {
-        return parts_.bending(boxes_.half_widths, positions, exec_);
+        return parts_.bending(boxes_, positions, exec_);
     }
 
     /// Whether a part with edges that are kept bends hardly less than it does without.

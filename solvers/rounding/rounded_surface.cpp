@@ -12,6 +12,7 @@
 #include "partition/connected_components.h"
 #include "partition/metrics/edge_measures.h"
 #include "partition/metrics/vertex_distance.h"
+#include "partition/vector_area.h"
 #include "solvers/denoising/vertex_averages.h"
 #include "solvers/rounding/coordinate_bounds.h"
 #include "solvers/rounding/joined_copies.h"
@@ -63,6 +64,8 @@ constexpr int most_iterations = 400;
 /// widest, in steps; nothing for vertices with less than the whole bounds.
 std::optional<bool> is_near_bound(const Boxes& boxes, const Point& steps, double near, const Points& positions, Index v)
 {
+    if (!boxes.flat.empty() && boxes.flat[v] != 0)
+        return std::nullopt;
     const Point motion = (positions.row(v) - boxes.middles.row(v)).cwiseAbs();
     const Point half_width = boxes.half_widths.row(v);
     const Point in_steps = (steps.array() > 0.0).select(half_width.array() / steps.array(), 0.0);
@@ -146,15 +149,18 @@ std::vector<double> fractions_of_bounds(const Topology& topology, const JoinedCo
 CoordinateBounds bounds_for(const MovingSurface& surface, const SurfaceParts& parts, const Points& positions,
                             const std::vector<double>& fractions, const RoundedMotion& motion, const Executor& exec)
 {
-    const double length = mean_edge_length(surface.mesh, positions, exec);
+    SurfaceSize size{.edge = mean_edge_length(surface.mesh, positions, exec)};
+    for (int axis = 0; axis < 3; ++axis)
+        size.seen[axis] = sum(exec, surface.mesh.n_faces(),
+                              [&](Index f) { return std::abs(vector_area(surface.mesh.face(f), positions)[axis]); });
     std::vector<Index> part_of;
     if (parts.count() > 1) {
         part_of.resize(usize(static_cast<Index>(positions.rows())));
         for_each(exec, static_cast<Index>(positions.rows()), [&](Index v) { part_of[v] = parts.of_vertex(v); });
     }
     CoordinateBounds bounds = motion.given_steps
-                                  ? bounds_of(positions, surface.neighbours, part_of, length, *motion.given_steps, exec)
-                                  : bounds_of(positions, surface.neighbours, part_of, length, exec);
+                                  ? bounds_of(positions, surface.neighbours, part_of, size, *motion.given_steps, exec)
+                                  : bounds_of(positions, surface.neighbours, part_of, size, exec);
     if (bounds.kind == CoordinateBounds::Kind::None)
         return bounds;
     for_each(exec, static_cast<Index>(positions.rows()), [&](Index v) {
@@ -195,8 +201,8 @@ void smooth_normals(const MovingSurface& surface, const KeptVolumes& volumes, co
 std::vector<std::uint8_t> explained_parts(const SurfaceParts& parts, const CoordinateBounds& bounds, const Boxes& boxes,
                                           const Points& positions, const Executor& exec)
 {
-    const std::vector<double> before = parts.bending(boxes.half_widths, boxes.middles, exec);
-    const std::vector<double> after = parts.bending(boxes.half_widths, positions, exec);
+    const std::vector<double> before = parts.bending(boxes, boxes.middles, exec);
+    const std::vector<double> after = parts.bending(boxes, positions, exec);
     const std::vector<double> near = fractions_near_bounds(parts, boxes, bounds, positions);
     const Evidence evidence = evidence_for(bounds.kind);
     std::vector<std::uint8_t> explained(before.size());
@@ -232,7 +238,7 @@ class SmoothingInBounds {
     {
         if (!judges)
             hold_others(bounds.half_widths);
-        const Boxes boxes{positions_, bounds.half_widths};
+        const Boxes boxes{positions_, bounds.half_widths, bounds.flat};
         SmoothedWithinSteps result{.positions = positions_, .steps = bounds.steps};
         const double smallest_step =
             (bounds.steps.array() > 0.0).select(bounds.steps, bounds.steps.maxCoeff()).minCoeff();
@@ -283,6 +289,23 @@ class SmoothingInBounds {
     std::vector<std::uint8_t> explained_;
 };
 
+/// Bounds in which what is flat stays flat.
+CoordinateBounds with_flat_facets(CoordinateBounds bounds)
+{
+    for (std::size_t v = 0; v < bounds.flat.size(); ++v)
+        for (unsigned axis = 0; axis < 3; ++axis)
+            if ((bounds.flat[v] >> axis & 1U) != 0)
+                bounds.half_widths(static_cast<Eigen::Index>(v), axis) = 0.0;
+    return bounds;
+}
+
+/// The same bounds, in which nothing is taken for flat.
+CoordinateBounds without_flat_facets(CoordinateBounds bounds)
+{
+    bounds.flat.clear();
+    return bounds;
+}
+
 /// Bounds in which no vertex moves further than it may.
 CoordinateBounds shortened(CoordinateBounds bounds, const RoundedMotion& motion)
 {
@@ -324,15 +347,20 @@ std::optional<SmoothedWithinSteps> smooth_rounded(const PolygonMesh& mesh, const
     SmoothingInBounds smoothing(mesh, topology, components, parts, surface, filled, exec);
     const bool judges = !motion.given_steps;
     const bool is_shortened = motion.within || motion.within_along_axes;
+    // The limits of evidence for faces of voxels were measured with flat facets that move like the rest: held, these
+    // hide how little of pyramids and stairs of blocks rounding explains.
+    const bool judges_without_flat = judges && bounds.kind == CoordinateBounds::Kind::Any &&
+                                     std::ranges::any_of(bounds.flat, [](std::uint8_t bits) { return bits != 0; });
+    const CoordinateBounds with_flat = with_flat_facets(bounds);
     std::optional<SmoothedWithinSteps> result;
     // Whether rounding explains what is rough shows in the whole bounds.
     if (judges || !is_shortened) {
-        result = smoothing.smooth(bounds, judges);
+        result = smoothing.smooth(judges_without_flat ? without_flat_facets(bounds) : with_flat, judges);
         if (!result)
             return std::nullopt;
     }
-    if (is_shortened)
-        result = smoothing.smooth(shortened(bounds, motion), false);
+    if (judges_without_flat || is_shortened)
+        result = smoothing.smooth(is_shortened ? shortened(with_flat, motion) : with_flat, false);
     if (joined)
         result->is_copy = joined->shared_vertices();
     for (const Spike& spike : spikes)

@@ -23,25 +23,24 @@ Index SurfaceParts::of_vertex(Index v) const
     return corners.empty() ? -1 : of_face(topology_.face_of[corners.front()]);
 }
 
-std::vector<double> SurfaceParts::bending(const Points& half_widths, const Points& positions,
-                                          const Executor& exec) const
+std::vector<double> SurfaceParts::bending(const Boxes& boxes, const Points& positions, const Executor& exec) const
 {
     std::vector<double> of_halfedges(usize(mesh_.n_corners()));
-    for_each(exec, mesh_.n_corners(), [&](Index h) { of_halfedges[h] = bending_at(h, half_widths, positions); });
+    for_each(exec, mesh_.n_corners(), [&](Index h) { of_halfedges[h] = bending_at(h, boxes, positions); });
     std::vector<double> of_parts(usize(count_), 0.0);
     for (Index h = 0; h < mesh_.n_corners(); ++h)
         of_parts[of_face(topology_.face_of[h])] += of_halfedges[h];
     return of_parts;
 }
 
-double SurfaceParts::bending_at(Index h, const Points& half_widths, const Points& positions) const
+double SurfaceParts::bending_at(Index h, const Boxes& boxes, const Points& positions) const
 {
     const Index twin = topology_.twin[h];
     if (twin < h)
         return 0.0;
     const Index v = mesh_.face_vertices[h];
     const Index w = mesh_.face_vertices[topology_.next(mesh_, h)];
-    if (half_widths.row(v).isZero(0.0) || half_widths.row(w).isZero(0.0))
+    if (boxes.half_widths.row(v).isZero(0.0) || boxes.half_widths.row(w).isZero(0.0))
         return 0.0;
     const Point normal = vector_area(mesh_.face(topology_.face_of[h]), positions);
     Point other = vector_area(mesh_.face(topology_.face_of[twin]), positions);

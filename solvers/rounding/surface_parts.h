@@ -7,6 +7,7 @@
 #include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
+#include "solvers/rounding/bounded_fairing.h"
 
 namespace seamflow {
 
@@ -27,9 +28,8 @@ class SurfaceParts {
     /// The total bending of each part: Σ l θ over its edges of two faces, with the length l and the angle θ between the
     /// normals of the faces. It is the same for a convex body and its rounded copies, however sharp its edges are, and
     /// grows with every wave: what stairs add to it disappears with them.
-    /// @param half_widths #V by 3: the bounds of vertices. Edges of a vertex without any do not count.
-    /// @param positions #V by 3.
-    [[nodiscard]] std::vector<double> bending(const Points& half_widths, const Points& positions,
+    /// @param boxes edges of a vertex that cannot move do not count. @param positions #V by 3.
+    [[nodiscard]] std::vector<double> bending(const Boxes& boxes, const Points& positions,
                                               const Executor& exec = run_serially) const;
 
   private:
@@ -37,7 +37,7 @@ class SurfaceParts {
     static constexpr std::size_t small_component = 200;
 
     /// l θ of the edge of half-edge h; 0 for the higher of two half-edges.
-    [[nodiscard]] double bending_at(Index h, const Points& half_widths, const Points& positions) const;
+    [[nodiscard]] double bending_at(Index h, const Boxes& boxes, const Points& positions) const;
 
     const PolygonMesh& mesh_;
     const Topology& topology_;

@@ -153,7 +153,7 @@ TEST_CASE("the report of smooth has its keys")
                             "output"})
         CHECK_MESSAGE(report.contains(key), key);
     for (const char* key :
-         {"read", "cut", "analyse", "assemble", "factorise", "solve", "correct", "step", "total", "write"})
+         {"read", "choose", "cut", "analyse", "assemble", "factorise", "solve", "correct", "step", "total", "write"})
         CHECK_MESSAGE(report["seconds"][key].is_number(), key);
     REQUIRE(report["steps"].size() == 3);
     for (const char* key :

@@ -190,7 +190,7 @@ function bars(entries, className) {
 
 function showPhases(section, report) {
     const all = report.seconds;
-    const wall = [["read", all.read], ["set-up", all.setup], ["cut", all.cut], ["analyse", all.analyse], ["all steps", all.step], ["write", all.write]].filter(
+    const wall = [["read", all.read], ["set-up", all.setup], ["choose", all.choose], ["cut", all.cut], ["analyse", all.analyse], ["all steps", all.step], ["write", all.write]].filter(
         ([, value]) => value > 0,
     );
     if (all.interface > 0 && report.subdomains > 1)
