@@ -264,11 +264,16 @@ void DenoisingStepper::report_to(DenoiseReport& report) const
     if (rounded_) {
         const Point& steps = rounded_->steps;
         report.rounding = rounded_;
+        const double part = static_cast<double>(std::ranges::count(is_rounded_, 1)) /
+                            static_cast<double>(std::max(is_rounded_.size(), std::size_t{1}));
+        const std::string where =
+            part < 1.0 - small_fraction ? fmt::format(" on {:.0f}% of the faces", 100.0 * part) : std::string();
         report.choices.push_back(
             {"rounded coordinates",
-             {{"x", steps.x()}, {"y", steps.y()}, {"z", steps.z()}},
-             {fmt::format("coordinates are rounded to {}: the smoothest surface within half a step",
-                          steps_in_words(steps))}});
+             {{"x", steps.x()}, {"y", steps.y()}, {"z", steps.z()}, {"part", part}},
+             {fmt::format("coordinates{} are rounded to {}: the smoothest surface within half a step{}{}", where,
+                          steps_in_words(steps), within_ ? " and <within>" : "",
+                          has_noise || noise_->rim_vertices > 0.0 ? ";" : "")}});
     }
     if (noise_->rim_vertices > 0.0)
         report.choices.push_back(

@@ -35,7 +35,8 @@ class Fairing {
         , weight_(static_cast<double>(std::max<Index>(neighbours.size(), 1)) /
                   static_cast<double>(std::max<std::size_t>(neighbours.values.size(), 1)))
         , middles_(boxes.middles(Eigen::all, columns))
-        , widths_(boxes.half_widths(Eigen::all, columns))
+        , half_widths_(boxes.half_widths(Eigen::all, columns))
+        , furthest_(boxes.furthest)
         , umbrellas_(neighbours.size(), N)
         , steps_(usize(neighbours.size()))
     {
@@ -97,8 +98,8 @@ class Fairing {
             [&](IterationSums& sums, Index v) {
                 const Row from = extrapolated.row(v);
                 const Row before = positions.row(v);
-                const Row after = Boxes::nearest<N>(middles_.row(v), widths_.row(v),
-                                                    from - steps_[usize(v)] * umbrella(umbrellas_, v));
+                const Row after = Boxes::nearest<N>(middles_.row(v), half_widths_.row(v),
+                                                    from - steps_[usize(v)] * umbrella(umbrellas_, v), furthest_);
                 const Row motion = after - before;
                 sums.motion = std::max(sums.motion, motion.cwiseAbs().maxCoeff());
                 sums.against += (from - after).dot(motion);
@@ -117,7 +118,8 @@ class Fairing {
     double weight_;
     /// #V by N: those of the boxes.
     Coordinates<N> middles_;
-    Coordinates<N> widths_;
+    Coordinates<N> half_widths_;
+    double furthest_;
     /// #V by N: L Y.
     Coordinates<N> umbrellas_;
     /// #V: the length of the gradient's step at each vertex.

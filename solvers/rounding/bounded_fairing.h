@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "partition/executor.h"
@@ -9,29 +11,33 @@
 
 namespace seamflow {
 
-/// A box around each vertex, in which it has to stay.
+/// A box around each vertex, in which it has to stay, and within a distance of the middle.
 struct Boxes {
     /// #V by 3: the middles of the boxes, and the largest distance from the middle along each axis, at least 0.
     const Points& middles;
     const Points& half_widths;
     /// #V: bit k is 1 where the surface is flat across axis k (see flat_facets); empty: nowhere.
     std::span<const std::uint8_t> flat = {};
+    double furthest = std::numeric_limits<double>::infinity();
 
-    /// Moves some coordinates to the nearest ones in a box. A coordinate of half-width 0 gets the bits of the middle.
+    /// Moves some coordinates to the nearest ones in a box, and from there towards its middle where that is further
+    /// than the largest distance. A coordinate of half-width 0 gets the bits of the middle.
     template <int N>
-    [[nodiscard]] static Eigen::Matrix<double, 1, N> nearest(const Eigen::Matrix<double, 1, N>& middle,
-                                                             const Eigen::Matrix<double, 1, N>& half_width,
-                                                             const Eigen::Matrix<double, 1, N>& coordinates)
+    [[nodiscard]] static Eigen::Matrix<double, 1, N>
+    nearest(const Eigen::Matrix<double, 1, N>& middle, const Eigen::Matrix<double, 1, N>& half_width,
+            const Eigen::Matrix<double, 1, N>& coordinates, double furthest)
     {
-        const Eigen::Matrix<double, 1, N> clamped =
-            coordinates.cwiseMax(middle - half_width).cwiseMin(middle + half_width);
+        Eigen::Matrix<double, 1, N> clamped = coordinates.cwiseMax(middle - half_width).cwiseMin(middle + half_width);
+        if (std::isfinite(furthest))
+            if (const double distance = (clamped - middle).norm(); distance > furthest)
+                clamped = middle + (furthest / distance) * (clamped - middle);
         return (half_width.array() > 0.0).select(clamped, middle);
     }
 
     /// Moves a position to the nearest one in the box of vertex v.
     [[nodiscard]] Point nearest(Index v, const Point& position) const
     {
-        return nearest<3>(middles.row(v), half_widths.row(v), position);
+        return nearest<3>(middles.row(v), half_widths.row(v), position, furthest);
     }
 };
 

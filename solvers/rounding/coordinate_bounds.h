@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct CoordinateBounds {
     Point steps = Point::Zero();
     /// #V by 3: the largest difference of each coordinate from its present value, at least 0.
     Points half_widths = Points(0, 3);
+    /// The largest distance of a vertex from its present position.
+    double furthest = std::numeric_limits<double>::infinity();
     /// #V: bit k is 1 where the surface is flat across axis k (see flat_facets); empty: nowhere. Half-widths there are
     /// as elsewhere.
     std::vector<std::uint8_t> flat = {};

@@ -17,6 +17,7 @@
 #include "solvers/rounding/coordinate_bounds.h"
 #include "solvers/rounding/joined_copies.h"
 #include "solvers/rounding/kept_volumes.h"
+#include "solvers/rounding/missing_data.h"
 #include "solvers/rounding/normals_in_boxes.h"
 #include "solvers/rounding/surface_parts.h"
 #include "solvers/rounding/uncrossed_faces.h"
@@ -238,7 +239,7 @@ class SmoothingInBounds {
     {
         if (!judges)
             hold_others(bounds.half_widths);
-        const Boxes boxes{positions_, bounds.half_widths, bounds.flat};
+        const Boxes boxes{positions_, bounds.half_widths, bounds.flat, bounds.furthest};
         SmoothedWithinSteps result{.positions = positions_, .steps = bounds.steps};
         const double smallest_step =
             (bounds.steps.array() > 0.0).select(bounds.steps, bounds.steps.maxCoeff()).minCoeff();
@@ -309,23 +310,20 @@ CoordinateBounds without_flat_facets(CoordinateBounds bounds)
 /// Bounds in which no vertex moves further than it may.
 CoordinateBounds shortened(CoordinateBounds bounds, const RoundedMotion& motion)
 {
-    const double n_axes = static_cast<double>((bounds.half_widths.colwise().maxCoeff().array() > 0.0).count());
     // So much shorter that rounding leads no vertex further.
-    constexpr double rounding = 1e-12;
-    Point most = Point::Constant(std::numeric_limits<double>::infinity());
+    constexpr double shorter = 1.0 - 1e-12;
     if (motion.within)
-        most.setConstant(*motion.within / std::sqrt(std::max(n_axes, 1.0)));
+        bounds.furthest = shorter * *motion.within;
     if (motion.within_along_axes)
-        most = most.cwiseMin(*motion.within_along_axes);
-    bounds.half_widths = bounds.half_widths.cwiseMin(((1.0 - rounding) * most).replicate(bounds.half_widths.rows(), 1));
+        bounds.half_widths =
+            bounds.half_widths.cwiseMin((shorter * *motion.within_along_axes).replicate(bounds.half_widths.rows(), 1));
     return bounds;
 }
 
-}  // namespace
-
-std::optional<SmoothedWithinSteps> smooth_rounded(const PolygonMesh& mesh, const Topology& topology,
-                                                  const Points& positions, const RoundedMotion& motion,
-                                                  const Executor& exec)
+/// The smooth surface of a mesh in which no coordinate stands for missing data.
+std::optional<SmoothedWithinSteps> smooth_all(const PolygonMesh& mesh, const Topology& topology,
+                                              const Points& positions, const RoundedMotion& motion,
+                                              const Executor& exec)
 {
     std::vector<Spike> spikes = find_spikes(mesh, positions, exec);
     const Points filled = spikes.empty() ? positions : without_spikes(mesh, topology, spikes, positions);
@@ -366,6 +364,42 @@ std::optional<SmoothedWithinSteps> smooth_rounded(const PolygonMesh& mesh, const
     for (const Spike& spike : spikes)
         result->positions.row(spike.vertex) = positions.row(spike.vertex);
     result->spikes = std::move(spikes);
+    return result;
+}
+
+}  // namespace
+
+std::optional<SmoothedWithinSteps> smooth_rounded(const PolygonMesh& mesh, const Topology& topology,
+                                                  const Points& positions, const RoundedMotion& motion,
+                                                  const Executor& exec)
+{
+    const std::vector<std::uint8_t> is_missing = vertices_without_data(mesh, positions);
+    if (is_missing.empty())
+        return smooth_all(mesh, topology, positions, motion, exec);
+    PolygonMesh known;
+    known.vertices = mesh.vertices;
+    std::vector<Index> faces;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        if (std::ranges::none_of(mesh.face(f), [&](Index v) { return is_missing[v] != 0; })) {
+            known.add_face(mesh.face(f));
+            faces.push_back(f);
+        }
+    Topology of_known = make_topology(known, exec);
+    if (!topology.junctions.empty())
+        free_junctions(known, of_known, exec);
+    of_known.fixed = topology.fixed;
+    std::optional<SmoothedWithinSteps> result = smooth_all(known, of_known, positions, motion, exec);
+    if (!result)
+        return std::nullopt;
+    for (const Spike& spike : find_spikes(mesh, positions, exec))
+        if (is_missing[spike.vertex] != 0)
+            result->spikes.push_back(spike);
+    std::ranges::sort(result->spikes, {}, &Spike::vertex);
+    // Faces beside missing data are as they were.
+    const std::vector<std::uint8_t> of_faces = std::exchange(result->is_smoothed, {});
+    result->is_smoothed.assign(usize(mesh.n_faces()), 1);
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        result->is_smoothed[faces[i]] = of_faces[i];
     return result;
 }
 

@@ -59,7 +59,8 @@ struct SmoothedWithinSteps {
 /// vertices would have to go further. On noise, which goes beyond half a step, and on shapes with edges at whole
 /// numbers, such as a box of blocks, either does not hold: these components stay. Components of fewer than 200 faces
 /// are judged together, all others one by one, also where they touch. A wall between two components stays if one of
-/// them stays. Steps that are given count on all components. Spikes (see find_spikes) stay, and count in nothing.
+/// them stays. Steps that are given count on all components. Spikes (see find_spikes) stay, and count in nothing, and
+/// so do vertices without data (see vertices_without_data) with their faces.
 /// @param topology with twins. Vertices that it fixes do not move. @param positions #V by 3.
 /// @returns nothing if there are no steps, or if they explain the roughness of no component.
 std::optional<SmoothedWithinSteps> smooth_rounded(const PolygonMesh& mesh, const Topology& topology,

@@ -295,6 +295,34 @@ TEST_CASE("rounded coordinates: heights for missing data stay, and do not hide t
     CHECK(std::abs(mesh.vertices(1226, 2) - before.vertices(1226, 2)) < 0.4);
 }
 
+TEST_CASE("rounded coordinates: blocks of missing data stay, and what is beside them is smoothed as at a boundary")
+{
+    const auto hills = [](double x, double y) { return 6.0 * std::sin(x / 13.0) * std::cos(y / 17.0); };
+    for (const double spacing : {1.0, 30.0}) {
+        CAPTURE(spacing);
+        PolygonMesh truth = test::height_grid(60, hills);
+        truth.vertices.leftCols<2>() *= spacing;
+        PolygonMesh mesh = test::rounded(truth, Point(0.0, 0.0, 1.0));
+        std::vector<Index> missing;
+        for (Index v = 0; v < mesh.n_vertices(); ++v)
+            if ((v % 60 > 20 && v % 60 < 30 && v / 60 > 15 && v / 60 < 45) || v % 60 < 2)
+                missing.push_back(v);
+        for (const Index v : missing)
+            mesh.vertices(v, 2) = -9999.0;
+        const PolygonMesh before = mesh;
+        const DenoiseReport report = denoise_in_place(mesh);
+        REQUIRE(report.rounding);
+        CHECK(report.rounding->steps == Point(0.0, 0.0, 1.0));
+        CHECK(mesh.vertices.leftCols<2>() == before.vertices.leftCols<2>());
+        for (const Index v : missing)
+            CHECK(mesh.vertices(v, 2) == -9999.0);
+        for (const Index v : missing)
+            mesh.vertices(v, 2) = truth.vertices(v, 2);
+        CHECK(furthest(mesh, before) > 1000.0);
+        CHECK(std::sqrt((mesh.vertices - truth.vertices).squaredNorm() / mesh.n_vertices()) < 0.08);
+    }
+}
+
 TEST_CASE("what is said of heights for missing data is said after resumption, too, of rounded heights and of noise")
 {
     PolygonMesh noisy = heights_with_a_gap();
