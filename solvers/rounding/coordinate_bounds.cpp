@@ -297,6 +297,7 @@ CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, s
     half_widths(rounded.vertices, Eigen::all) = bounds.half_widths;
     bounds.half_widths = std::move(half_widths);
     hold_exact_vertices(points, rounded.steps, neighbours, bounds, exec);
+    bounds.edge = size.edge;
     bounds.flat = flat_facets(points, neighbours, rounded.steps, bounds.steps, exec);
     return bounds;
 }

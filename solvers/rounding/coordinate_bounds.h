@@ -38,6 +38,8 @@ struct CoordinateBounds {
     /// #V: bit k is 1 where the surface is flat across axis k (see flat_facets); empty: nowhere. Half-widths there are
     /// as elsewhere.
     std::vector<std::uint8_t> flat = {};
+    /// The mean length of edges.
+    double edge = 0.0;
 };
 
 /// How large a surface and its edges are.

@@ -5,15 +5,18 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
 #include "engine/denoise.h"
 #include "engine/state/flow_state.h"
 #include "partition/connected_components.h"
 #include "partition/errors.h"
+#include "partition/metrics/vertex_distance.h"
 #include "partition/metrics/volume.h"
 #include "samples/meshes/meshes.h"
 #include "samples/meshes/random_numbers.h"
+#include "tests/support/denoising.h"
 #include "tests/support/digitised.h"
 #include "tests/support/flows.h"
 #include "tests/support/test_meshes.h"
@@ -201,6 +204,8 @@ TEST_CASE("rounded coordinates: walls keep together and volumes stay, of small s
         REQUIRE(denoise_in_place(nearer, options).rounding);
         CHECK((nearer.vertices - before.vertices).rowwise().norm().maxCoeff() <= 0.3 * (1.0 + 1e-12));
         CHECK((nearer.vertices - before.vertices).rowwise().norm().maxCoeff() > 0.25);
+        // Further along one axis than in the cube within the ball.
+        CHECK(furthest(nearer, before) > 0.22);
         CHECK(count_kept_copies(nearer, before, large.n_vertices()) > 10);
     }
 }
@@ -426,4 +431,38 @@ TEST_CASE("it does not matter which of two components that share a vertex comes 
     CHECK((noisy_first.vertices.middleRows(1, n) - rounded_first.vertices.bottomRows(n)).cwiseAbs().maxCoeff() < 0.02);
     const Index m = rounded.n_vertices() - 1;
     CHECK((noisy_first.vertices.bottomRows(m) - rounded_first.vertices.middleRows(1, m)).cwiseAbs().maxCoeff() < 0.02);
+}
+
+TEST_CASE("parts rounded to fractions of their edges, at any angle, lose that; clean ones stay, and noise is noise")
+{
+    Eigen::Matrix3d turn;
+    turn = Eigen::AngleAxisd(0.35, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(0.52, Eigen::Vector3d::UnitZ());
+    PolygonMesh truth = make_box(6000);
+    const double edge = mean_edge_length(truth);
+    truth.vertices = truth.vertices / edge * turn.transpose();
+    const auto result_of = [&](const PolygonMesh& mesh) {
+        PolygonMesh result = mesh;
+        const DenoiseReport report = denoise_in_place(result);
+        return std::pair(std::move(result), report);
+    };
+    for (const double step : {0.2, 0.3, 0.4}) {
+        CAPTURE(step);
+        const PolygonMesh mesh = test::rounded(truth, Point::Constant(step));
+        const std::pair<PolygonMesh, DenoiseReport> found = result_of(mesh);
+        REQUIRE(found.second.rounding);
+        CHECK(found.second.rounding->steps.minCoeff() > 0.0);
+        CHECK(furthest(found.first, mesh) <= 0.5 * step + 1e-12);
+        CHECK(test::angle_to_truth(truth, found.first) < 0.2 * test::angle_to_truth(truth, mesh));
+        CHECK(test::angle_to_truth(truth, found.first) < 1.5);
+        // Noise of two thirds of a step goes further than half a step.
+        const PolygonMesh noisy = test::rounded(test::with_gaussian_noise(truth, step, 5), Point::Constant(step));
+        const std::pair<PolygonMesh, DenoiseReport> of_noisy = result_of(noisy);
+        CHECK_FALSE(of_noisy.second.rounding);
+        CHECK(of_noisy.second.noise->part > 0.9);
+    }
+    PolygonMesh clean = make_box(6000);
+    clean.vertices *= 5.0 / edge;
+    clean = test::rounded(clean, Point::Constant(1.0));
+    const std::pair<PolygonMesh, DenoiseReport> of_clean = result_of(clean);
+    CHECK(same_bits(of_clean.first.vertices, clean.vertices));
 }
