@@ -37,7 +37,11 @@ LimitedComponents::LimitedComponents(const PolygonMesh& mesh, const Topology& to
             const auto corners = mesh.face(f);
             vertices.insert(vertices.end(), corners.begin(), corners.end());
         }
-        is_closed_[c] = encloses_volume(mesh, components_.nodes[c], run_in_parallel) ? 1 : 0;
+        is_closed_[c] =
+            encloses_volume(mesh, components_.nodes[c],
+                            components_.nodes[c].size() > usize(block_size) ? run_in_parallel : run_serially)
+                ? 1
+                : 0;
         sort_unique(vertices);
         vertices_.values.insert(vertices_.values.end(), vertices.begin(), vertices.end());
         vertices_.close();
@@ -120,7 +124,8 @@ double LimitedComponents::factor_of(Index component, const Points& positions)
 /// @param exempt #F, or empty.
 bool LimitedComponents::is_exempt(Index component, std::span<const std::uint8_t> exempt) const
 {
-    return !exempt.empty() && exempt[usize(components_.nodes[component].front())] != 0;
+    return !exempt.empty() &&
+           std::ranges::all_of(components_.nodes[component], [&](Index f) { return exempt[usize(f)] != 0; });
 }
 
 /// Shortens the parts of displacements that are tangential to the result.

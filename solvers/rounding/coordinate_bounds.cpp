@@ -4,12 +4,15 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "partition/metrics/vertex_distance.h"
+#include "partition/vector_area.h"
 #include "solvers/rounding/flat_facets.h"
 
 namespace seamflow {
@@ -246,32 +249,40 @@ RoundedParts parts_with(const std::array<CoordinateSteps, 3>& steps, const Point
 
 /// The steps that most coordinates have, and the parts with them.
 /// @param used the vertices with faces, ascending. @param part_of see bounds_of.
+/// @param size of all parts; replaced by that of the parts with steps.
 RoundedParts find_rounded_parts(const Points& points, const std::vector<Index>& used, std::span<const Index> part_of,
-                                double length, const Executor& exec)
+                                const SizeOfParts& size_of_parts, SurfaceSize& size, const Executor& exec)
 {
-    const auto steps_of = [&](std::span<const Index> vertices) {
-        return find_coordinate_steps(points(vertices, Eigen::all), length, exec);
+    const auto steps_of = [&](std::span<const Index> vertices, double edge) {
+        return find_coordinate_steps(points(vertices, Eigen::all), edge, exec);
     };
     if (part_of.empty())
-        return {steps_of(used), used};
+        return {steps_of(used, size.edge), used};
     const Index n_parts = 1 + *std::ranges::max_element(part_of);
     const IndexLists parts = make_lists(n_parts, [&](auto&& add) {
         for (const Index v : used)
             add(part_of[v], v);
     });
-    RoundedParts best = parts_with(steps_of(used), points, parts);
-    if (std::ranges::all_of(best.steps, [](const auto& of) { return of.step > 0.0; }))
-        return best;
-    std::vector<Index> largest(usize(n_parts));
-    std::iota(largest.begin(), largest.end(), Index{0});
-    std::ranges::stable_sort(largest, std::greater(), [&](Index part) { return parts[part].size(); });
-    largest.resize(std::min(largest.size(), most_parts));
-    for (const Index part : largest) {
-        if (parts[part].size() == used.size())
-            break;
-        RoundedParts own = parts_with(steps_of(parts[part]), points, parts);
-        if (own.n_coordinates() > best.n_coordinates())
-            best = std::move(own);
+    RoundedParts best = parts_with(steps_of(used, size.edge), points, parts);
+    if (std::ranges::any_of(best.steps, [](const auto& of) { return of.step == 0.0; })) {
+        std::vector<Index> largest(usize(n_parts));
+        std::iota(largest.begin(), largest.end(), Index{0});
+        std::ranges::stable_sort(largest, std::greater(), [&](Index part) { return parts[part].size(); });
+        largest.resize(std::min(largest.size(), most_parts));
+        for (const Index part : largest) {
+            if (parts[part].size() == used.size())
+                break;
+            const SurfaceSize of_part = size_of_parts([&](Index v) { return part_of[v] == part; });
+            RoundedParts own = parts_with(steps_of(parts[part], of_part.edge), points, parts);
+            if (own.n_coordinates() > best.n_coordinates())
+                best = std::move(own);
+        }
+    }
+    if (best.vertices.size() < used.size()) {
+        std::vector<std::uint8_t> has_steps(part_of.size(), 0);
+        for (const Index v : best.vertices)
+            has_steps[usize(v)] = 1;
+        size = size_of_parts([&](Index v) { return has_steps[usize(v)] != 0; });
     }
     return best;
 }
@@ -283,13 +294,56 @@ bool has_equal_steps(const Point& steps)
     return steps.maxCoeff() <= equal_steps * steps.minCoeff();
 }
 
+SurfaceSize size_of(const PolygonMesh& mesh, const Points& points, const std::function<bool(Index)>& counts,
+                    const Executor& exec)
+{
+    const auto is_counted = [&](Index f) { return !counts || std::ranges::all_of(mesh.face(f), counts); };
+    SurfaceSize size;
+    if (!counts) {
+        size.edge = mean_edge_length(mesh, points, exec);
+    } else {
+        Eigen::RowVector2d sums = Eigen::RowVector2d::Zero();
+        for (Index f = 0; f < mesh.n_faces(); ++f) {
+            if (!is_counted(f))
+                continue;
+            Index from = mesh.face(f).back();
+            for (const Index to : mesh.face(f)) {
+                sums += Eigen::RowVector2d((points.row(to) - points.row(from)).norm(), 1.0);
+                from = to;
+            }
+        }
+        size.edge = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+    }
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Point lowest = Point::Constant(infinity);
+    Point highest = Point::Constant(-infinity);
+    for (const Index v : mesh.face_vertices)
+        if (!counts || counts(v)) {
+            lowest = lowest.cwiseMin(points.row(v));
+            highest = highest.cwiseMax(points.row(v));
+        }
+    for (int axis = 0; axis < 3; ++axis)
+        size.seen[axis] = sum(exec, mesh.n_faces(), [&](Index f) {
+            const auto is_at = [&](double value) {
+                return std::ranges::all_of(mesh.face(f), [&](Index v) { return points(v, axis) == value; });
+            };
+            return is_counted(f) && !is_at(lowest[axis]) && !is_at(highest[axis])
+                       ? std::abs(vector_area(mesh.face(f), points)[axis])
+                       : 0.0;
+        });
+    return size;
+}
+
 CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, std::span<const Index> part_of,
-                           const SurfaceSize& size, const Executor& exec)
+                           const SizeOfParts& size_of_parts, const Executor& exec)
 {
     // Vertices without faces may lie anywhere.
     const std::vector<Index> used =
         select(exec, static_cast<Index>(points.rows()), [&](Index v) { return !neighbours[v].empty(); });
-    const RoundedParts rounded = find_rounded_parts(points, used, part_of, size.edge, exec);
+    SurfaceSize size = size_of_parts({});
+    const RoundedParts rounded = find_rounded_parts(points, used, part_of, size_of_parts, size, exec);
+    if (rounded.vertices.empty())
+        return {};
     CoordinateBounds bounds = bounds_by_kind(points(rounded.vertices, Eigen::all), rounded.steps, size, exec);
     if (bounds.kind == CoordinateBounds::Kind::None)
         return bounds;
@@ -302,10 +356,10 @@ CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, s
     return bounds;
 }
 
-CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, std::span<const Index> part_of,
-                           const SurfaceSize& size, const Point& steps, const Executor& exec)
+CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, const SizeOfParts& size_of_parts,
+                           const Point& steps, const Executor& exec)
 {
-    CoordinateBounds found = bounds_of(points, neighbours, part_of, size, exec);
+    CoordinateBounds found = bounds_of(points, neighbours, {}, size_of_parts, exec);
     const auto agrees = [&](int axis) {
         if (found.steps[axis] == 0.0)
             return steps[axis] == 0.0 || found.kind == CoordinateBounds::Kind::Heights;

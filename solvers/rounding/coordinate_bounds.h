@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -46,9 +47,18 @@ struct CoordinateBounds {
 struct SurfaceSize {
     /// The mean length of edges.
     double edge = 0.0;
-    /// The areas of all faces as seen along x, y and z, in length².
+    /// The areas of all faces as seen along x, y and z, in length², without those in the lowest and the highest plane
+    /// across it, which heights may stand on.
     Point seen = Point::Zero();
 };
+
+/// Measures some faces of a surface.
+/// @param points #V by 3. @param counts whether a vertex counts: faces do with all their vertices.
+SurfaceSize size_of(const PolygonMesh& mesh, const Points& points, const std::function<bool(Index)>& counts,
+                    const Executor& exec = run_serially);
+
+/// See size_of. @param counts empty: all vertices do.
+using SizeOfParts = std::function<SurfaceSize(const std::function<bool(Index)>& counts)>;
 
 /// Whether x, y and z have steps of about the same size.
 bool has_equal_steps(const Point& steps);
@@ -58,14 +68,15 @@ bool has_equal_steps(const Point& steps);
 /// parts, some may have been rounded and others not: the steps are those that most vertices have, of all parts or of
 /// one of the largest, and the vertices of parts that do not have them get half-width 0.
 /// @param points #V by 3. @param neighbours #V: the vertices that share an edge with each. @param part_of #V: the part
-/// of each vertex, from 0, -1 without faces; empty: there is one part. @param size of the surface: steps below a tenth
-/// of its edges cannot be seen, of heights below a hundredth, and do not count.
+/// of each vertex, from 0, -1 without faces; empty: there is one part. @param size_of_parts returns the size of the
+/// faces whose vertices count: steps below a tenth of their edges cannot be seen, of heights below a hundredth, and do
+/// not count.
 CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, std::span<const Index> part_of,
-                           const SurfaceSize& size, const Executor& exec = run_serially);
+                           const SizeOfParts& size_of_parts, const Executor& exec = run_serially);
 
 /// The bounds for steps that are known: those that are found if they have these steps, or are heights with this step;
-/// otherwise half a step for each coordinate. @param steps of x, y and z, at least 0.
-CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, std::span<const Index> part_of,
-                           const SurfaceSize& size, const Point& steps, const Executor& exec = run_serially);
+/// otherwise half a step for each coordinate. They count on all parts. @param steps of x, y and z, at least 0.
+CoordinateBounds bounds_of(const Points& points, const IndexLists& neighbours, const SizeOfParts& size_of_parts,
+                           const Point& steps, const Executor& exec = run_serially);
 
 }  // namespace seamflow

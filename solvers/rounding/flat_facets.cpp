@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <iterator>
 #include <limits>
-#include <utility>
+#include <map>
 
 namespace seamflow {
 
@@ -21,8 +20,6 @@ constexpr double least_terrace = 0.75;
 constexpr int rounds_of_widths = 4;
 /// The fraction of its vertices that are then flat, at least: few may be so by chance.
 constexpr double least_flat = 0.25;
-/// In steps: levels that differ by less are one.
-constexpr double same_level = 0.02;
 /// Edges whose part across the axis is a smaller fraction of their length run along walls.
 constexpr double steep = 0.5;
 constexpr int unknown = std::numeric_limits<int>::max();
@@ -35,13 +32,14 @@ class FacetsAcrossAxis {
         : points_(points)
         , neighbours_(neighbours)
         , axis_(axis)
+        , planes_of_step_(std::round(step / planes.step))
         , levels_(static_cast<std::size_t>(points.rows()), std::numeric_limits<double>::quiet_NaN())
         , is_seen_(levels_.size(), 0)
         , hops_(levels_.size(), unknown)
     {
         for (Eigen::Index v = 0; v < points.rows(); ++v)
             if (planes.has(points(v, axis)))
-                levels_[usize(static_cast<Index>(v))] = (points(v, axis) - planes.origin) / step;
+                levels_[usize(static_cast<Index>(v))] = planes.plane_of(points(v, axis));
     }
 
     /// Calls visit with each vertex of a flat part.
@@ -59,7 +57,8 @@ class FacetsAcrossAxis {
     }
 
   private:
-    [[nodiscard]] bool is_level_with(Index v, Index w) const { return std::abs(levels_[v] - levels_[w]) < same_level; }
+    /// False off the planes.
+    [[nodiscard]] bool is_level_with(Index v, Index w) const { return levels_[v] == levels_[w]; }
 
     /// 0 along walls, otherwise 1.
     [[nodiscard]] int hop(Index v, Index w) const
@@ -83,28 +82,32 @@ class FacetsAcrossAxis {
                 }
     }
 
-    /// Distances from some vertices, in hops, over vertices that `may_pass` allows.
-    /// @param front vertices with known hops, the nearest first. Afterwards all that were reached.
+    /// Distances from some vertices with known hops, over vertices that `may_pass` allows, up to fewer than `limit`.
+    /// @param reached in: these vertices; out: with all others that were reached.
     template <class MayPass>
-    void spread(std::vector<Index>& front, MayPass&& may_pass)
+    void spread(std::vector<Index>& reached, MayPass&& may_pass, int limit)
     {
-        std::deque<Index> waiting(front.begin(), front.end());
-        while (!waiting.empty()) {
-            const Index v = waiting.front();
-            waiting.pop_front();
-            for (const Index w : neighbours_[v]) {
-                if (!may_pass(w))
+        std::map<int, std::vector<Index>> waiting;
+        for (const Index v : reached)
+            if (hops_[v] < limit)
+                waiting[hops_[v]].push_back(v);
+        for (; !waiting.empty(); waiting.erase(waiting.begin())) {
+            const int label = waiting.begin()->first;
+            std::vector<Index>& here = waiting.begin()->second;
+            for (std::size_t i = 0; i < here.size(); ++i) {
+                const Index v = here[i];
+                // It has been reached by a shorter way.
+                if (hops_[v] != label)
                     continue;
-                const int way = hop(v, w);
-                if (hops_[w] <= hops_[v] + way)
-                    continue;
-                if (hops_[w] == unknown)
-                    front.push_back(w);
-                hops_[w] = hops_[v] + way;
-                if (way == 0)
-                    waiting.push_front(w);
-                else
-                    waiting.push_back(w);
+                for (const Index w : neighbours_[v]) {
+                    const int way = may_pass(w) ? label + hop(v, w) : unknown;
+                    if (hops_[w] <= way || way >= limit)
+                        continue;
+                    if (hops_[w] == unknown)
+                        reached.push_back(w);
+                    hops_[w] = way;
+                    (way == label ? here : waiting[way]).push_back(w);
+                }
             }
         }
     }
@@ -115,70 +118,116 @@ class FacetsAcrossAxis {
             hops_[v] = unknown;
     }
 
-    /// Whether some vertex of a facet is far from its rim.
-    bool is_wide(const std::vector<Index>& facet, const std::vector<Index>& rim)
+    /// The largest distance of a vertex of a facet from its rim.
+    int depth_of(const std::vector<Index>& facet, const std::vector<Index>& rim)
     {
         std::vector<Index> reached = rim;
         for (const Index v : rim)
             hops_[v] = 0;
-        spread(reached, [&](Index w) { return is_level_with(rim.front(), w); });
-        const bool found = std::ranges::any_of(facet, [&](Index v) { return hops_[v] >= least_depth; });
+        spread(
+            reached, [&](Index w) { return is_level_with(rim.front(), w); }, unknown);
+        int depth = 0;
+        for (const Index v : facet)
+            depth = std::max(depth, hops_[v]);
         forget(reached);
-        return found;
+        return depth;
     }
 
     /// For each vertex of a rim: the width of the terrace beside it, in hops: from its first vertex to where the
     /// surface is more than one step higher, or lower, than the facet; of a terrace without such an end, its own. The
     /// largest if there are several. Where there is none, the width stays.
-    /// @param sign 1 for terraces above, -1 for those below.
-    void widen(const std::vector<Index>& rim, double sign, std::vector<int>& widths)
+    /// @param sign 1 for terraces above, -1 for those below. @param limit wider ones count as so wide.
+    void widen(const std::vector<Index>& rim, double sign, int limit, std::vector<int>& widths)
     {
         const double level = levels_[rim.front()];
         // Comparisons with what is off all planes are false.
         const auto above = [&](Index v) { return sign * (levels_[v] - level); };
-        const auto is_beside = [&](Index v) { return above(v) > same_level && above(v) <= 1.0 + same_level; };
-        const auto is_beyond = [&](Index v) { return above(v) > 1.0 + same_level; };
-        std::vector<Index> measured;
+        const auto is_beside = [&](Index v) { return above(v) > 0.0 && above(v) <= planes_of_step_; };
+        const auto is_beyond = [&](Index v) { return above(v) > planes_of_step_; };
+        std::vector<Index> near;
         for (const Index v : rim)
             for (const Index w : neighbours_[v])
-                if (is_beside(w) && hops_[w] == unknown)
-                    measure_terrace(w, is_beside, is_beyond, measured);
+                if (is_beside(w) && hops_[w] == unknown) {
+                    hops_[w] = 0;
+                    near.push_back(w);
+                }
+        spread(near, is_beside, limit);
+        measure_terraces(near, is_beyond, limit);
         for (std::size_t i = 0; i < rim.size(); ++i)
             for (const Index w : neighbours_[rim[i]])
                 if (is_beside(w))
                     widths[i] = std::max(widths[i], hops_[w]);
-        forget(measured);
+        forget(near);
     }
 
-    /// Measures the distances of all vertices of a terrace to its end, or from a vertex to its furthest one if it has
-    /// no end.
-    template <class IsBeside, class IsBeyond>
-    void measure_terrace(Index start, IsBeside&& is_beside, IsBeyond&& is_beyond, std::vector<Index>& measured)
+    /// Replaces the distances of vertices on terraces from the rim of a facet by those to the ends of the terraces, or,
+    /// where a terrace has none, by its width.
+    /// @param near all that are nearer to the rim than the limit.
+    template <class IsBeyond>
+    void measure_terraces(const std::vector<Index>& near, IsBeyond&& is_beyond, int limit)
     {
-        hops_[start] = 0;
-        std::vector<Index> terrace{start};
-        spread(terrace, is_beside);
-        int furthest = 0;
+        std::vector<int> from_rim;
+        for (const Index v : near)
+            from_rim.push_back(hops_[v]);
+        constexpr int waiting = unknown - 1;
+        for (const Index v : near)
+            hops_[v] = waiting;
+        std::vector<Index> terrace;
+        for (std::size_t i = 0; i < near.size(); ++i) {
+            if (hops_[near[i]] != waiting)
+                continue;
+            terrace.assign(1, near[i]);
+            hops_[near[i]] = unknown;
+            for (std::size_t k = 0; k < terrace.size(); ++k)
+                for (const Index w : neighbours_[terrace[k]])
+                    if (hops_[w] == waiting) {
+                        hops_[w] = unknown;
+                        terrace.push_back(w);
+                    }
+            measure_terrace(terrace, is_beyond, limit);
+        }
+        // Terraces without an end are as wide as twice their largest distance from the rim.
+        std::map<int, int> furthest;
+        for (std::size_t i = 0; i < near.size(); ++i)
+            if (hops_[near[i]] < 0) {
+                int& most = furthest[hops_[near[i]]];
+                most = std::max(most, from_rim[i]);
+            }
+        for (const Index v : near)
+            if (hops_[v] < 0)
+                hops_[v] = std::min(2 * furthest[hops_[v]] + 1, limit);
+    }
+
+    /// The distances of the vertices of a terrace from its end; without an end, a negative number of its own.
+    template <class IsBeyond>
+    void measure_terrace(const std::vector<Index>& terrace, IsBeyond&& is_beyond, int limit)
+    {
         std::vector<Index> ends;
         for (const Index v : terrace) {
-            furthest = std::max(furthest, hops_[v]);
-            if (std::ranges::any_of(neighbours_[v], is_beyond))
-                ends.push_back(v);
-        }
-        // The last hop leads beyond the end.
-        const auto last_hop = [&](Index v) {
-            int least = 1;
+            // The last hop leads beyond the end.
+            int least = unknown;
             for (const Index w : neighbours_[v])
                 if (is_beyond(w))
                     least = std::min(least, hop(v, w));
-            return least;
-        };
-        measured.insert(measured.end(), terrace.begin(), terrace.end());
+            if (least == unknown)
+                continue;
+            hops_[v] = least;
+            ends.push_back(v);
+        }
+        if (ends.empty()) {
+            for (const Index v : terrace)
+                hops_[v] = -1 - terrace.front();
+            return;
+        }
+        is_on_terrace_.resize(levels_.size(), 0);
         for (const Index v : terrace)
-            hops_[v] = ends.empty() ? furthest : unknown;
-        for (const Index v : ends)
-            hops_[v] = last_hop(v);
-        spread(ends, is_beside);
+            is_on_terrace_[v] = 1;
+        spread(
+            ends, [&](Index w) { return is_on_terrace_[w] != 0; }, limit);
+        for (const Index v : terrace) {
+            is_on_terrace_[v] = 0;
+            hops_[v] = std::min(hops_[v], limit);
+        }
     }
 
     /// Widths averaged over neighbours along the rim.
@@ -212,29 +261,25 @@ class FacetsAcrossAxis {
         std::ranges::copy_if(facet, std::back_inserter(rim), [&](Index v) {
             return std::ranges::any_of(neighbours_[v], [&](Index w) { return !is_level_with(v, w); });
         });
-        if (rim.empty() || !is_wide(facet, rim))
+        const int depth = rim.empty() ? 0 : depth_of(facet, rim);
+        if (depth < least_depth)
             return;
+        // Beside a terrace as wide as this, nothing of the facet is flat.
+        const int limit = 1 + static_cast<int>(std::ceil(depth / times_terrace));
         // Beside a cut, where coordinates are off all planes, there may be a terrace.
         std::vector<int> widths(rim.size(), 0);
         for (std::size_t i = 0; i < rim.size(); ++i)
             if (std::ranges::any_of(neighbours_[rim[i]], [&](Index w) { return std::isnan(levels_[w]); }))
                 widths[i] = 1;
-        widen(rim, 1.0, widths);
-        widen(rim, -1.0, widths);
-        // From each vertex of the rim, what is nearer than some widths of the terrace is not flat: hops count from the
-        // vertex with the widest terrace.
+        widen(rim, 1.0, limit, widths);
+        widen(rim, -1.0, limit, widths);
+        // From each vertex of the rim, what is nearer than some widths of the terrace is not flat.
         const std::vector<double> averaged = along_rim(rim, widths);
-        std::vector<std::pair<int, Index>> order;
         for (std::size_t i = 0; i < rim.size(); ++i)
-            order.emplace_back(
-                averaged[i] < least_terrace ? 0 : -static_cast<int>(std::ceil(times_terrace * averaged[i])), rim[i]);
-        std::ranges::sort(order);
-        std::vector<Index> reached;
-        for (const auto& [hops, v] : order) {
-            hops_[v] = hops;
-            reached.push_back(v);
-        }
-        spread(reached, [&](Index w) { return is_level_with(rim.front(), w); });
+            hops_[rim[i]] = averaged[i] < least_terrace ? 0 : -static_cast<int>(std::ceil(times_terrace * averaged[i]));
+        std::vector<Index> reached = rim;
+        spread(
+            reached, [&](Index w) { return is_level_with(rim.front(), w); }, 0);
         const auto is_flat = [&](Index v) { return hops_[v] >= 0; };
         if (static_cast<double>(std::ranges::count_if(facet, is_flat)) >=
             least_flat * static_cast<double>(facet.size()))
@@ -247,10 +292,14 @@ class FacetsAcrossAxis {
     const Points& points_;
     const IndexLists& neighbours_;
     Eigen::Index axis_;
-    /// #V: the coordinate, in steps; NaN off the planes.
+    /// 1, or 2 for marching cubes.
+    double planes_of_step_;
+    /// #V: the number of the plane; NaN off the planes.
     std::vector<double> levels_;
     std::vector<std::uint8_t> is_seen_;
-    /// #V: see spread; `unknown` between calls.
+    /// #V: see measure_terrace; 0 between calls.
+    std::vector<std::uint8_t> is_on_terrace_;
+    /// #V: see spread; `unknown` between calls of visit_flat.
     std::vector<int> hops_;
 };
 

@@ -1,8 +1,10 @@
 #include "solvers/rounding/missing_data.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace seamflow {
 
@@ -11,14 +13,21 @@ namespace {
 /// How far a value for missing data is from all others, in their ranges.
 constexpr double least_gap = 3.0;
 /// Different values for missing data, on one side of the others.
-constexpr int most_values = 2;
+constexpr std::size_t most_values = 2;
 
-/// The vertices that faces use.
-std::vector<Index> used_vertices(const PolygonMesh& mesh)
+/// The vertices that faces use, without spikes that have no other spike beside them.
+std::vector<Index> used_vertices(const PolygonMesh& mesh, std::span<const Spike> spikes)
 {
+    std::vector<std::uint8_t> is_spike(usize(mesh.n_vertices()), 0);
+    for (const Spike& spike : spikes)
+        is_spike[spike.vertex] = 1;
     std::vector<std::uint8_t> is_used(usize(mesh.n_vertices()), 0);
-    for (const Index v : mesh.face_vertices)
-        is_used[v] = 1;
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        const auto n_spikes = std::ranges::count_if(mesh.face(f), [&](Index v) { return is_spike[v] != 0; });
+        for (const Index v : mesh.face(f))
+            if (is_spike[v] == 0 || n_spikes > 1)
+                is_used[v] = 1;
+    }
     std::vector<Index> used;
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (is_used[v] != 0)
@@ -26,55 +35,61 @@ std::vector<Index> used_vertices(const PolygonMesh& mesh)
     return used;
 }
 
-/// Takes the vertices with the largest value out of a list, if it stands for missing data.
-/// @param value_of the coordinate of a vertex, or its negative. @returns whether it does.
+/// Finds the vertices with the largest value, or the two largest ones, if these stand for missing data.
+/// @param spikes are marked with them, if they have such values. @param value_of the coordinate of a vertex, or its
+/// negative. @param is_missing receives 1 at these vertices.
+/// @returns whether they do.
 template <class ValueOf>
-bool take_out_largest(std::vector<Index>& vertices, std::size_t n_all, ValueOf&& value_of,
-                      std::vector<std::uint8_t>& is_missing)
+bool mark_largest(const std::vector<Index>& vertices, const std::vector<Index>& spikes, ValueOf&& value_of,
+                  std::vector<std::uint8_t>& is_missing)
 {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    double largest = -infinity;
-    for (const Index v : vertices)
-        largest = std::max(largest, value_of(v));
-    double next = -infinity;
+    // The largest values, descending, with the numbers of their vertices.
+    std::array<double, most_values + 1> largest{};
+    largest.fill(-infinity);
     double smallest = infinity;
-    std::size_t n_largest = 0;
     for (const Index v : vertices) {
-        const double value = value_of(v);
+        double value = value_of(v);
         smallest = std::min(smallest, value);
-        if (value == largest)
-            ++n_largest;
-        else
-            next = std::max(next, value);
+        for (double& one : largest) {
+            if (value == one)
+                break;
+            if (value > one)
+                std::swap(value, one);
+        }
     }
-    // What lies in one plane has no range to compare with.
-    if (!(next > smallest) || largest - next <= least_gap * (next - smallest) || 2 * n_largest >= n_all)
-        return false;
-    std::erase_if(vertices, [&](Index v) {
-        if (value_of(v) != largest)
-            return false;
-        is_missing[v] = 1;
+    for (std::size_t n = most_values; n > 0; --n) {
+        const double range = largest[n] - smallest;
+        const double least = largest[n - 1];
+        const auto is_beyond = [&](Index v) { return value_of(v) >= least; };
+        // What lies in one plane has no range to compare with.
+        if (!(range > 0.0) || !(least - largest[n] > least_gap * range) ||
+            2 * std::ranges::count_if(vertices, is_beyond) >= std::ssize(vertices))
+            continue;
+        for (const std::span<const Index> list : {std::span(vertices), std::span(spikes)})
+            for (const Index v : list)
+                if (is_beyond(v))
+                    is_missing[v] = 1;
         return true;
-    });
-    return true;
+    }
+    return false;
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> vertices_without_data(const PolygonMesh& mesh, const Points& positions)
+std::vector<std::uint8_t> vertices_without_data(const PolygonMesh& mesh, const Points& positions,
+                                                std::span<const Spike> spikes)
 {
-    std::vector<Index> vertices = used_vertices(mesh);
-    const std::size_t n_all = vertices.size();
+    const std::vector<Index> vertices = used_vertices(mesh, spikes);
+    std::vector<Index> of_spikes;
+    for (const Spike& spike : spikes)
+        of_spikes.push_back(spike.vertex);
     std::vector<std::uint8_t> is_missing(usize(mesh.n_vertices()), 0);
     bool found = false;
     for (int axis = 0; axis < 3; ++axis)
         for (const double sign : {1.0, -1.0})
-            for (int i = 0; i < most_values; ++i) {
-                const auto value_of = [&](Index v) { return sign * positions(v, axis); };
-                if (!take_out_largest(vertices, n_all, value_of, is_missing))
-                    break;
-                found = true;
-            }
+            found |= mark_largest(
+                vertices, of_spikes, [&](Index v) { return sign * positions(v, axis); }, is_missing);
     return found ? is_missing : std::vector<std::uint8_t>();
 }
 

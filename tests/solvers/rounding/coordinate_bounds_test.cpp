@@ -1,4 +1,5 @@
 #include <cmath>
+#include <functional>
 
 #include <doctest/doctest.h>
 
@@ -23,7 +24,9 @@ CoordinateBounds found_for(const Points& points, double length = 1.0)
         neighbours.values.push_back((v + n - 1) % n);
         neighbours.close();
     }
-    return bounds_of(points, neighbours, {}, {.edge = length}, run_in_parallel);
+    return bounds_of(
+        points, neighbours, {}, [length](const std::function<bool(Index)>&) { return SurfaceSize{.edge = length}; },
+        run_in_parallel);
 }
 
 double slope(double x, double y)
