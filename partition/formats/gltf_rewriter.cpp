@@ -334,7 +334,7 @@ std::vector<std::string> remarks_on_old_data(const GltfContent& content, const G
     remark(now.n_staying_normals > 0, "normals that belong to several vertices");
     remark(geometry.has_tangents, "tangents");
     remark(geometry.has_morph_targets, "morph targets (differences from the positions)");
-    remark(content.root()["skins"].size() > 0, "skins (joints and weights)");
+    remark(!content.root()["skins"].nodes().empty(), "skins (joints and weights)");
     if (now.rounded)
         remarks.push_back(rounding_remark(content.path()));
     return remarks;
@@ -387,12 +387,14 @@ std::vector<std::string> extras_of_gltf(const std::filesystem::path& path, std::
                 add_once(extras, "points and lines");
         }
     }
+    // What is not used is not checked: it may have any type.
     for (const char* const list : {"materials", "textures", "animations", "skins", "cameras"})
-        if (root[list].size() > 0)
+        if (!root[list].nodes().empty())
             extras.emplace_back(list);
-    for (std::size_t n = 0; n < root["nodes"].size(); ++n)
-        for (const char* const transform : {"matrix", "translation", "rotation", "scale"})
-            if (root["nodes"].at(n)[transform].is_there())
+    const std::array transforms{"matrix", "translation", "rotation", "scale"};
+    for (const JsonNode* const node : root["nodes"].nodes())
+        for (const JsonNode* const member : node->children)
+            if (!member->key.empty() && std::ranges::find(transforms, text_of_json(member->key)) != transforms.end())
                 add_once(extras, "transforms of nodes");
     return extras;
 }

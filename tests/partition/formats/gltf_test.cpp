@@ -640,3 +640,17 @@ TEST_CASE("what else is in a file is named in a few words")
           std::vector<std::string>{"normals", "texture coordinates", "attributes _HEAT", "morph targets",
                                    "points and lines", "materials", "animations", "transforms of nodes"});
 }
+
+TEST_CASE("members that are not used may have any type: the file is read, written again, and what is in it is named")
+{
+    for (const char* member : {"skins", "materials", "textures", "animations", "cameras", "nodes"})
+        for (const char* value : {"{}", R"({"version":"2.0"})", "3", "\"a\"", "[1]", "[[]]", "null"}) {
+            GltfMaker maker;
+            maker.mesh({fmt::format(R"({{"attributes":{{"POSITION":{}}},"mode":5}})", maker.vectors(square))});
+            maker.more = fmt::format(R"("{}":{})", member, value);
+            CAPTURE(maker.more);
+            CHECK(complaint_about("a.glb", maker.glb()).empty());
+            CHECK_NOTHROW(rewritten("a.glb", maker.glb(), [](Points& points) { points(0, 0) = 0.5; }));
+            CHECK_NOTHROW(extras_of_gltf("a.glb", maker.glb()));
+        }
+}
