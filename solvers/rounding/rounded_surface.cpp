@@ -182,9 +182,9 @@ CoordinateBounds bounds_for(const MovingSurface& surface, const SurfaceParts& pa
         bounds.half_widths.row(v) = fractions[v] * bounds.half_widths.row(v).cwiseProduct(motion.axes);
     });
     surface.copy_to_copies(bounds.half_widths);
-    if (surface.joined != nullptr)
-        for (std::size_t v = 0; v < bounds.flat.size(); ++v)
-            bounds.flat[v] = bounds.flat[usize(surface.joined->original_of[v])];
+    // Where sheets meet, terraces end at other sheets, which says nothing of how flat their own is.
+    if (!surface.topology.junctions.empty())
+        bounds.flat.clear();
     return bounds;
 }
 
