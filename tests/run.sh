@@ -72,4 +72,4 @@ if ((all)); then
 else
     more=()
 fi
-exec ctest --preset "$preset" "${more[@]}" "${tests[@]}" --parallel "$(nproc)"
+exec ctest --preset "$preset" "${more[@]}" "${tests[@]}" --no-label-summary --parallel "$(nproc)"

@@ -53,7 +53,8 @@ struct SmoothedWithinSteps {
 /// and vertices fitted to them within the bounds, in two ways: over all neighbours, and over those on the same side of
 /// an edge; not over other sheets. Of the two surfaces, the one that bends less is the result, and the first if both
 /// bend alike. Where components touch, copies of a vertex move as one (see join_copies), and no faces cross beside
-/// lines and sharp edges that did not (see uncross_faces).
+/// lines and sharp edges that did not (see uncross_faces). What is flat stays flat where no sheets meet (see
+/// flat_facets).
 ///
 /// Steps that are found explain the roughness of a component if within half a step it bends much less, and only few
 /// vertices would have to go further. On noise, which goes beyond half a step, and on shapes with edges at whole

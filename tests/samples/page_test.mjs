@@ -769,7 +769,7 @@ test("plots have a curve for all that was measured", async () => {
     assert.equal(await curves("times"), 2);
     for (const id of ["distances", "displacements", "times"])
         assert.ok((await seen(opened, `#${id} canvas`)).colours > 20, id);
-    assert.equal(await opened.locator("#phases i").count(), 9);
+    assert.equal(await opened.locator("#phases i").count(), 10);
     await setStep(opened, 1);
     await settled(opened);
     assert.equal(await opened.locator("#times .u-value").first().textContent(), "1");
