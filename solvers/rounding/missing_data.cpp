@@ -93,4 +93,35 @@ std::vector<std::uint8_t> vertices_without_data(const PolygonMesh& mesh, const P
     return found ? is_missing : std::vector<std::uint8_t>();
 }
 
+KnownSurface::KnownSurface(const PolygonMesh& surface, const Topology& of_surface,
+                           const std::vector<std::uint8_t>& is_missing, const Executor& exec)
+{
+    mesh.vertices = surface.vertices;
+    for (Index f = 0; f < surface.n_faces(); ++f)
+        if (std::ranges::none_of(surface.face(f), [&](Index v) { return is_missing[v] != 0; })) {
+            mesh.add_face(surface.face(f));
+            faces.push_back(f);
+        }
+    topology = make_topology(mesh, exec);
+    if (!of_surface.junctions.empty())
+        free_junctions(mesh, topology, exec);
+    topology.fixed = of_surface.fixed;
+}
+
+std::vector<std::uint8_t> KnownSurface::of_all_faces(const PolygonMesh& surface,
+                                                     const std::vector<std::uint8_t>& of_known) const
+{
+    std::vector<std::uint8_t> is_zero(usize(surface.n_vertices()), 0);
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        if (of_known[i] == 0)
+            for (const Index v : surface.face(faces[i]))
+                is_zero[v] = 1;
+    std::vector<std::uint8_t> flags(usize(surface.n_faces()));
+    for (Index f = 0; f < surface.n_faces(); ++f)
+        flags[f] = std::ranges::any_of(surface.face(f), [&](Index v) { return is_zero[v] != 0; }) ? 0 : 1;
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        flags[faces[i]] = of_known[i];
+    return flags;
+}
+
 }  // namespace seamflow

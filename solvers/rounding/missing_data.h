@@ -4,8 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "partition/executor.h"
 #include "partition/metrics/edge_measures.h"
 #include "partition/polygon_mesh.h"
+#include "partition/topology.h"
 
 namespace seamflow {
 
@@ -17,5 +19,25 @@ namespace seamflow {
 /// @returns #V: 1 at these vertices; empty: there are none.
 std::vector<std::uint8_t> vertices_without_data(const PolygonMesh& mesh, const Points& positions,
                                                 std::span<const Spike> spikes);
+
+/// The faces of a surface all of whose vertices have data.
+struct KnownSurface {
+    /// It has all vertices of the surface.
+    PolygonMesh mesh;
+    /// Vertices that the surface fixes are fixed. Where the surface has junctions, those of this one move.
+    Topology topology;
+    /// Its faces in the surface, ascending.
+    std::vector<Index> faces;
+
+    /// @param of_surface with twins. @param is_missing see vertices_without_data; not empty.
+    KnownSurface(const PolygonMesh& surface, const Topology& of_surface, const std::vector<std::uint8_t>& is_missing,
+                 const Executor& exec = run_serially);
+
+    /// Flags of all faces of the surface: those beside missing data go with the known faces around them, and are 0 if
+    /// one of these is.
+    /// @param of_known those of the known faces.
+    [[nodiscard]] std::vector<std::uint8_t> of_all_faces(const PolygonMesh& surface,
+                                                         const std::vector<std::uint8_t>& of_known) const;
+};
 
 }  // namespace seamflow

@@ -1,6 +1,7 @@
 #include "solvers/rounding/normals_in_boxes.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -17,8 +18,6 @@ constexpr int averaging_rounds = 6;
 constexpr int fitting_rounds = 7;
 /// A group is the last if it has taken less than this fraction of the bending.
 constexpr double least_gain = 0.002;
-/// The surface that keeps edges bends less if its bending is below this fraction of that of the other one.
-constexpr double bends_less = 0.98;
 
 double total_bending(const std::vector<double>& of_parts)
 {
@@ -37,11 +36,6 @@ NormalsInBoxes::NormalsInBoxes(const PolygonMesh& mesh, const Topology& topology
     , exec_(exec)
     , averages_(mesh, topology, exec, Sheets::Own)
 {
-}
-
-bool NormalsInBoxes::bends_no_less(double with_edges, double without)
-{
-    return !(with_edges < bends_less * without);
 }
 
 std::vector<double> NormalsInBoxes::smooth(NormalNeighbours neighbours, Points& positions,
@@ -63,7 +57,7 @@ std::vector<double> NormalsInBoxes::smooth(NormalNeighbours neighbours, Points& 
         positions = std::move(further);
         if (group > 0 && gain < least_gain * total_bending(least))
             break;
-        if (group == 0 && !to_beat.empty() && std::ranges::equal(least, to_beat, bends_no_less))
+        if (group == 0 && !to_beat.empty() && std::ranges::equal(least, to_beat, std::ranges::greater_equal()))
             break;
     }
     return least;

@@ -31,8 +31,8 @@ class NormalsInBoxes {
 
     /// Smooths in groups of rounds, until a group makes the surface bend hardly less.
     /// @param positions #V by 3: in the boxes; replaced.
-    /// @param to_beat the bending of each part of another surface: there are no further groups if after the first one
-    /// no part bends clearly less than there. Empty: no other surface.
+    /// @param to_beat there are no further groups if after the first one no part bends less than this. Empty: there may
+    /// be.
     /// @returns the bending of each part of the result (see SurfaceParts::bending).
     std::vector<double> smooth(NormalNeighbours neighbours, Points& positions, const std::vector<double>& to_beat = {});
 
@@ -41,9 +41,6 @@ class NormalsInBoxes {
     {
         return parts_.bending(boxes_, positions, exec_);
     }
-
-    /// Whether a part with edges that are kept bends hardly less than it does without.
-    [[nodiscard]] static bool bends_no_less(double with_edges, double without);
 
   private:
     void smooth_once(NormalNeighbours neighbours, Points& positions);

@@ -1,9 +1,9 @@
 #include "solvers/rounding/rounded_surface.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -12,14 +12,14 @@
 
 #include "partition/connected_components.h"
 #include "partition/metrics/edge_measures.h"
-#include "partition/metrics/vertex_distance.h"
-#include "partition/vector_area.h"
 #include "solvers/denoising/vertex_averages.h"
+#include "solvers/rounding/common_drift.h"
 #include "solvers/rounding/coordinate_bounds.h"
 #include "solvers/rounding/joined_copies.h"
 #include "solvers/rounding/kept_volumes.h"
 #include "solvers/rounding/missing_data.h"
 #include "solvers/rounding/normals_in_boxes.h"
+#include "solvers/rounding/rounding_evidence.h"
 #include "solvers/rounding/surface_parts.h"
 #include "solvers/rounding/uncrossed_faces.h"
 
@@ -27,89 +27,9 @@ namespace seamflow {
 
 namespace {
 
-/// When rounding explains what is rough: if the fraction of bending that is left and the fraction of vertices near
-/// their bounds, times a weight, add up to at most a limit; or if few vertices are near bounds, and less is left than a
-/// limit of its own.
-struct Evidence {
-    /// A vertex is near a bound if it has moved by this fraction of its half-width.
-    double near;
-    double weight;
-    double most;
-    double few;
-    double most_with_few;
-
-    /// @param bending the fraction that is left. @param fraction of the vertices that are near a bound. Where true
-    /// places lie anywhere between the bounds, as those of heights do, 1 - near of them are.
-    [[nodiscard]] bool explains(double bending, double fraction) const
-    {
-        return bending + weight * std::max(fraction - (1.0 - near), 0.0) <= most ||
-               (fraction <= few && bending <= most_with_few);
-    }
-};
-
-/// The comments give measured sums as [digitised shapes; shapes made of blocks]. Digitised shapes (balls, tori, tubes,
-/// boxes, plates, egg crates, terrains) are to be smoothed. Shapes made of blocks (pyramids of steps, studs, ribs,
-/// pockets) are to stay. Stairs that a digitised plane could be as well have sums of the first kind.
-Evidence evidence_for(const CoordinateBounds& bounds)
-{
-    constexpr double fine = 0.5;
-    switch (bounds.kind) {
-    case CoordinateBounds::Kind::Heights:
-        // [0.02 to 0.9; 0.93 to 3.3, and noise of 0.3 steps on steep ground 0.95]
-        return {.near = 0.9, .weight = 3.2, .most = 0.9, .few = 0.0, .most_with_few = 0.0};
-    case CoordinateBounds::Kind::MarchingCubes:
-        // [0.15 to 0.79, one plate in thick slices 1.27; 0.83 to 1.3]. Thin vessels keep .8 to .96 of their bending,
-        // but less than 0.035 of their vertices are near bounds; of shapes of blocks 0.056 are.
-        return {.near = 0.98, .weight = 2.0, .most = 0.81, .few = 0.04, .most_with_few = 0.97};
-    default:
-        // Steps much shorter than edges make no blocks: what bends less within them was rounded, or has noise, of which
-        // more vertices are near bounds. Of boxes, balls, gears and threads [0.08 to 0.82 is left, 0.31 to 0.53 near;
-        // clean 0.999 and more is left, with noise of half a step 0.57 and more near]
-        if (bounds.steps.maxCoeff() < fine * bounds.edge)
-            return {.near = 0.9, .weight = 0.0, .most = 0.0, .few = 0.56, .most_with_few = 0.9};
-        // [0.09 to 0.364; 0.37 to 1.3]
-        return {.near = 0.9, .weight = 0.6, .most = 0.3675, .few = 0.0, .most_with_few = 0.0};
-    }
-}
-
 /// A fairing ends when no coordinate moves by more than this many steps in an iteration.
 constexpr double last_motion = 0.002;
 constexpr int most_iterations = 400;
-
-/// Whether a vertex has moved by at least the fraction `near` of its half-width, in a direction in which bounds are
-/// widest, in steps; nothing for vertices with less than the whole bounds.
-std::optional<bool> is_near_bound(const Boxes& boxes, const Point& steps, double near, const Points& positions, Index v)
-{
-    if (!boxes.flat.empty() && boxes.flat[v] != 0)
-        return std::nullopt;
-    const Point motion = (positions.row(v) - boxes.middles.row(v)).cwiseAbs();
-    const Point half_width = boxes.half_widths.row(v);
-    const Point in_steps = (steps.array() > 0.0).select(half_width.array() / steps.array(), 0.0);
-    // Within a part of the bounds, which a strength leaves, more vertices are near them.
-    constexpr double nearly_half = 0.49;
-    if (!(in_steps.maxCoeff() > nearly_half))
-        return std::nullopt;
-    return (in_steps.array() >= near * in_steps.maxCoeff() && motion.array() >= near * half_width.array()).any();
-}
-
-/// Per part: the fraction of the vertices with whole bounds that are near one; 1 without any: nothing shows that they
-/// suffice.
-std::vector<double> fractions_near_bounds(const SurfaceParts& parts, const Boxes& boxes, const CoordinateBounds& bounds,
-                                          const Points& positions)
-{
-    std::vector<double> near(usize(parts.count()), 0.0);
-    std::vector<double> all(usize(parts.count()), 0.0);
-    const double fraction = evidence_for(bounds).near;
-    for (Index v = 0; v < static_cast<Index>(positions.rows()); ++v)
-        if (const Index part = parts.of_vertex(v); part >= 0)
-            if (const auto is_near = is_near_bound(boxes, bounds.steps, fraction, positions, v)) {
-                all[part] += 1.0;
-                near[part] += *is_near ? 1.0 : 0.0;
-            }
-    for (std::size_t part = 0; part < all.size(); ++part)
-        near[part] = all[part] > 0.0 ? near[part] / all[part] : 1.0;
-    return near;
-}
 
 bool begins_with_fairing(const CoordinateBounds& bounds)
 {
@@ -198,35 +118,36 @@ void take(const SurfaceParts& parts, const std::vector<std::uint8_t>& taken, con
     });
 }
 
+/// How much less a surface bends whose edges are kept, if it is the better one: its bending is below this fraction of
+/// that of the other one. Thin vessels of voxels, which keep at least the given fraction of their bending, are as good
+/// prisms as tubes: fractions are 0.906 to 1.07 for tubes and trees of radius 1 to 2, 0.68 to 0.88 for boxes of 4 to 14
+/// voxels.
+constexpr double bends_less = 0.98;
+constexpr double bends_less_if_thin = 0.9;
+constexpr double thin_bending = 0.3;
+
 /// Smooths normals in both ways, and takes for each part the surface that bends less.
 /// @param volumes those that are kept. @param positions #V by 3: in the boxes; replaced.
-void smooth_normals(const MovingSurface& surface, const KeptVolumes& volumes, const Boxes& boxes, Points& positions,
-                    const Executor& exec)
+void smooth_normals(const MovingSurface& surface, const KeptVolumes& volumes, const Boxes& boxes,
+                    CoordinateBounds::Kind kind, Points& positions, const Executor& exec)
 {
     const Components components = face_components(surface.mesh, surface.topology);
     const SurfaceParts parts(surface.mesh, surface.topology, components);
     NormalsInBoxes normals(surface.mesh, surface.topology, parts, volumes, boxes, exec);
     Points with_edges = positions;
     const std::vector<double> bending = normals.smooth(NormalNeighbours::All, positions);
-    const std::vector<double> of_edges = normals.smooth(NormalNeighbours::SameSideOfEdge, with_edges, bending);
+    std::vector<double> to_beat(bending.size());
+    const bool may_be_thin = kind == CoordinateBounds::Kind::Any;
+    const std::vector<double> before = may_be_thin ? normals.bending(boxes.middles) : std::vector<double>();
+    for (std::size_t part = 0; part < bending.size(); ++part) {
+        const bool is_thin = may_be_thin && bending[part] >= thin_bending * before[part];
+        to_beat[part] = (is_thin ? bends_less_if_thin : bends_less) * bending[part];
+    }
+    const std::vector<double> of_edges = normals.smooth(NormalNeighbours::SameSideOfEdge, with_edges, to_beat);
     std::vector<std::uint8_t> taken(bending.size(), 0);
     for (std::size_t part = 0; part < bending.size(); ++part)
-        taken[part] = NormalsInBoxes::bends_no_less(of_edges[part], bending[part]) ? 0 : 1;
+        taken[part] = of_edges[part] < to_beat[part] ? 1 : 0;
     take(parts, taken, with_edges, positions, exec);
-}
-
-/// Per part: 1 if rounding explains its roughness.
-std::vector<std::uint8_t> explained_parts(const SurfaceParts& parts, const CoordinateBounds& bounds, const Boxes& boxes,
-                                          const Points& positions, const Executor& exec)
-{
-    const std::vector<double> before = parts.bending(boxes, boxes.middles, exec);
-    const std::vector<double> after = parts.bending(boxes, positions, exec);
-    const std::vector<double> near = fractions_near_bounds(parts, boxes, bounds, positions);
-    const Evidence evidence = evidence_for(bounds);
-    std::vector<std::uint8_t> explained(before.size());
-    for (std::size_t part = 0; part < before.size(); ++part)
-        explained[part] = before[part] > 0.0 && evidence.explains(after[part] / before[part], near[part]) ? 1 : 0;
-    return explained;
 }
 
 /// Smooths a surface within bounds.
@@ -264,13 +185,16 @@ class SmoothingInBounds {
                                            result.positions, exec_);
         result.fairing.last_motion /= smallest_step;
         const Points fair = result.positions;
-        smooth_normals(surface_, volumes_, boxes, result.positions, exec_);
+        smooth_normals(surface_, volumes_, boxes, bounds.kind, result.positions, exec_);
         surface_.copy_to_copies(result.positions);
         if (judges) {
-            explained_ = explained_parts(parts_, bounds, boxes, result.positions, exec_);
+            // Thin vessels beside others lose a part of their volume.
+            explained_ =
+                parts_explained_by_rounding(parts_, bounds, boxes, result.positions, surface_.joined == nullptr, exec_);
             if (std::ranges::find(explained_, 1) == explained_.end())
                 return std::nullopt;
         }
+        take_back_drift_within(bounds, boxes, result.positions);
         result.is_smoothed = hold_others(bounds.half_widths);
         for_each(exec_, static_cast<Index>(positions_.rows()),
                  [&](Index v) { result.positions.row(v) = boxes.nearest(v, result.positions.row(v)); });
@@ -280,6 +204,23 @@ class SmoothingInBounds {
     }
 
   private:
+    /// Takes back the drift of voxels and marching cubes of equal steps. Terraces of heights and between slices are so
+    /// wide that neighbours lie on one side by rounding.
+    void take_back_drift_within(const CoordinateBounds& bounds, const Boxes& boxes, Points& positions) const
+    {
+        const bool is_marching_cubes = bounds.kind == CoordinateBounds::Kind::MarchingCubes;
+        if (bounds.kind == CoordinateBounds::Kind::Heights || !has_equal_steps(bounds.steps))
+            return;
+        // Egg crates of 3 and 4 voxels: 0.099 to 0.175 voxels from the truth become 0.07 to 0.13, by marching cubes
+        // 0.154 to 0.196 become 0.12 to 0.13. A ball of radius 16 stays at 0.026.
+        const int rounds = is_marching_cubes ? 24 : 40;
+        const double by_chance = (is_marching_cubes ? 0.03 : 0.04) * bounds.steps.maxCoeff();
+        take_back_drift(surface_.mesh, surface_.topology, surface_.neighbours, boxes, rounds, by_chance, positions,
+                        exec_);
+        volumes_.restore(boxes, positions, exec_);
+        surface_.copy_to_copies(positions);
+    }
+
     /// Takes the bounds of vertices of the parts that are not explained, and of all their copies.
     /// @returns #F: 1 in the other parts.
     std::vector<std::uint8_t> hold_others(Points& half_widths) const
@@ -324,8 +265,14 @@ CoordinateBounds without_flat_facets(CoordinateBounds bounds)
 }
 
 /// Bounds in which no vertex moves further than it may.
-CoordinateBounds shortened(CoordinateBounds bounds, const RoundedMotion& motion, double largest_coordinate)
+CoordinateBounds shortened(CoordinateBounds bounds, const RoundedMotion& motion, const MovingSurface& surface,
+                           const Points& positions)
 {
+    // Vertices without faces may lie anywhere.
+    double largest_coordinate = 0.0;
+    for (Eigen::Index v = 0; v < positions.rows(); ++v)
+        if (!surface.neighbours[static_cast<Index>(v)].empty())
+            largest_coordinate = std::max(largest_coordinate, positions.row(v).cwiseAbs().maxCoeff());
     // So much shorter that rounding leads no vertex further.
     const double margin = 4.0 * std::numeric_limits<double>::epsilon() * largest_coordinate;
     const auto shorter = [margin](double length) { return std::max((1.0 - 1e-12) * length - margin, 0.0); };
@@ -339,11 +286,11 @@ CoordinateBounds shortened(CoordinateBounds bounds, const RoundedMotion& motion,
 }
 
 /// The smooth surface of a mesh in which no coordinate stands for missing data.
+/// @param spikes those of the mesh (see find_spikes).
 std::optional<SmoothedWithinSteps> smooth_all(const PolygonMesh& mesh, const Topology& topology,
-                                              const Points& positions, const RoundedMotion& motion,
-                                              const Executor& exec)
+                                              const Points& positions, std::vector<Spike> spikes,
+                                              const RoundedMotion& motion, const Executor& exec)
 {
-    std::vector<Spike> spikes = find_spikes(mesh, positions, exec);
     const Points filled = spikes.empty() ? positions : without_spikes(mesh, topology, spikes, positions);
     const Components components = face_components(mesh, topology);
     const std::optional<JoinedCopies> joined =
@@ -376,8 +323,7 @@ std::optional<SmoothedWithinSteps> smooth_all(const PolygonMesh& mesh, const Top
             return std::nullopt;
     }
     if (judges_without_flat || is_shortened)
-        result = smoothing.smooth(is_shortened ? shortened(with_flat, motion, filled.cwiseAbs().maxCoeff()) : with_flat,
-                                  false);
+        result = smoothing.smooth(is_shortened ? shortened(with_flat, motion, surface, filled) : with_flat, false);
     if (joined)
         result->is_copy = joined->shared_vertices();
     for (const Spike& spike : spikes)
@@ -392,41 +338,19 @@ std::optional<SmoothedWithinSteps> smooth_rounded(const PolygonMesh& mesh, const
                                                   const Points& positions, const RoundedMotion& motion,
                                                   const Executor& exec)
 {
-    const std::vector<Spike> spikes = find_spikes(mesh, positions, exec);
+    std::vector<Spike> spikes = find_spikes(mesh, positions, exec);
     const std::vector<std::uint8_t> is_missing = vertices_without_data(mesh, positions, spikes);
     if (is_missing.empty())
-        return smooth_all(mesh, topology, positions, motion, exec);
-    PolygonMesh known;
-    known.vertices = mesh.vertices;
-    std::vector<Index> faces;
-    for (Index f = 0; f < mesh.n_faces(); ++f)
-        if (std::ranges::none_of(mesh.face(f), [&](Index v) { return is_missing[v] != 0; })) {
-            known.add_face(mesh.face(f));
-            faces.push_back(f);
-        }
-    Topology of_known = make_topology(known, exec);
-    if (!topology.junctions.empty())
-        free_junctions(known, of_known, exec);
-    of_known.fixed = topology.fixed;
-    std::optional<SmoothedWithinSteps> result = smooth_all(known, of_known, positions, motion, exec);
+        return smooth_all(mesh, topology, positions, std::move(spikes), motion, exec);
+    const KnownSurface known(mesh, topology, is_missing, exec);
+    std::optional<SmoothedWithinSteps> result =
+        smooth_all(known.mesh, known.topology, positions, find_spikes(known.mesh, positions, exec), motion, exec);
     if (!result)
         return std::nullopt;
-    for (const Spike& spike : spikes)
-        if (is_missing[spike.vertex] != 0)
-            result->spikes.push_back(spike);
+    std::ranges::copy_if(spikes, std::back_inserter(result->spikes),
+                         [&](const Spike& spike) { return is_missing[spike.vertex] != 0; });
     std::ranges::sort(result->spikes, {}, &Spike::vertex);
-    // Faces beside missing data go with those around them.
-    const std::vector<std::uint8_t> of_faces = std::exchange(result->is_smoothed, {});
-    std::vector<std::uint8_t> is_held(usize(mesh.n_vertices()), 0);
-    for (std::size_t i = 0; i < faces.size(); ++i)
-        if (of_faces[i] == 0)
-            for (const Index v : mesh.face(faces[i]))
-                is_held[v] = 1;
-    result->is_smoothed.resize(usize(mesh.n_faces()));
-    for (Index f = 0; f < mesh.n_faces(); ++f)
-        result->is_smoothed[f] = std::ranges::any_of(mesh.face(f), [&](Index v) { return is_held[v] != 0; }) ? 0 : 1;
-    for (std::size_t i = 0; i < faces.size(); ++i)
-        result->is_smoothed[faces[i]] = of_faces[i];
+    result->is_smoothed = known.of_all_faces(mesh, result->is_smoothed);
     return result;
 }
 

@@ -1,5 +1,6 @@
 #include "tests/support/denoising.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -135,6 +136,21 @@ double angle_to_truth(const PolygonMesh& truth, const PolygonMesh& result)
         sum += std::atan2(a.cross(b).norm(), a.dot(b));
     }
     return sum / truth.n_faces() * 180.0 / std::numbers::pi;
+}
+
+DenoiseReport denoise_in_place(PolygonMesh& mesh, const DenoiseOptions& options)
+{
+    return denoise(mesh, options);
+}
+
+bool names(const std::vector<Remark>& remarks, const std::string& kind)
+{
+    return std::ranges::any_of(remarks, [&](const Remark& remark) { return remark.kind == kind; });
+}
+
+double furthest(const PolygonMesh& mesh, const PolygonMesh& before)
+{
+    return (mesh.vertices - before.vertices).cwiseAbs().maxCoeff();
 }
 
 Denoised compare_with_truth(const PolygonMesh& truth, const PolygonMesh& result)

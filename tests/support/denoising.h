@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "engine/denoise.h"
 #include "partition/polygon_mesh.h"
 
 /// Noise on meshes whose true surface is known, what other methods make of it, and what is left.
@@ -11,6 +13,15 @@ namespace seamflow::test {
 /// The mesh with every vertex displaced along a random direction by a normally distributed length.
 /// @param sigma its standard deviation, in mean edges.
 PolygonMesh with_gaussian_noise(const PolygonMesh& mesh, double sigma, std::uint32_t seed);
+
+/// Calls denoise without looking on.
+DenoiseReport denoise_in_place(PolygonMesh& mesh, const DenoiseOptions& options = {});
+
+/// Whether one of some remarks is of this kind.
+bool names(const std::vector<Remark>& remarks, const std::string& kind);
+
+/// The largest change of a coordinate.
+double furthest(const PolygonMesh& mesh, const PolygonMesh& before);
 
 /// How far a result is from the truth, which has the same faces.
 struct Denoised {

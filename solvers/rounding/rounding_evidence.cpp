@@ -1,0 +1,157 @@
+#include "solvers/rounding/rounding_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+namespace {
+
+/// When rounding explains what is rough: if the fraction of bending that is left and the fraction of vertices near
+/// their bounds, times a weight, add up to at most a limit; or if few vertices are near bounds, and less is left than a
+/// limit of its own.
+struct Evidence {
+    /// A vertex is near a bound if it has moved by this fraction of its half-width.
+    double near;
+    double weight;
+    double most;
+    double few;
+    double most_with_few;
+    /// The fraction of vertices at corners of voxels that the second limit needs.
+    double corners = 0.0;
+
+    /// @param bending the fraction that is left. @param fraction of the vertices that are near a bound. Where true
+    /// places lie anywhere between the bounds, as those of heights do, 1 - near of them are.
+    [[nodiscard]] bool explains(double bending, double fraction) const
+    {
+        return bending + weight * std::max(fraction - (1.0 - near), 0.0) <= most;
+    }
+
+    /// The same by the second limit.
+    [[nodiscard]] bool explains_with_few(double bending, double fraction) const
+    {
+        return fraction <= few && bending <= most_with_few;
+    }
+};
+
+/// The comments give measured sums as [digitised shapes; shapes made of blocks]. Digitised shapes (balls, tori, tubes,
+/// boxes, plates, egg crates, terrains) are to be smoothed. Shapes made of blocks (pyramids of steps, studs, ribs,
+/// pockets) are to stay. Stairs that a digitised plane could be as well have sums of the first kind.
+Evidence evidence_for(const CoordinateBounds& bounds)
+{
+    constexpr double fine = 0.5;
+    switch (bounds.kind) {
+    case CoordinateBounds::Kind::Heights:
+        // [0.02 to 0.9; 0.93 to 3.3, and noise of 0.3 steps on steep ground 0.95]
+        return {.near = 0.9, .weight = 3.2, .most = 0.9, .few = 0.0, .most_with_few = 0.0};
+    case CoordinateBounds::Kind::MarchingCubes:
+        // [0.15 to 0.79, one plate in thick slices 1.27; 0.83 to 1.3]. Thin vessels keep .8 to .96 of their bending,
+        // but less than 0.035 of their vertices are near bounds; of shapes of blocks 0.056 are.
+        return {.near = 0.98, .weight = 2.0, .most = 0.81, .few = 0.04, .most_with_few = 0.97};
+    default:
+        // Steps much shorter than edges make no blocks: what bends less within them was rounded, or has noise, of which
+        // more vertices are near bounds. Of boxes, balls, gears and threads [0.08 to 0.82 is left, 0.31 to 0.53 near;
+        // clean 0.999 and more is left, with noise of half a step 0.57 and more near]
+        if (bounds.steps.maxCoeff() < fine * bounds.edge)
+            return {.near = 0.9, .weight = 0.0, .most = 0.0, .few = 0.56, .most_with_few = 0.9};
+        // [0.09 to 0.364; 0.37 to 1.3]. Thin vessels and small balls keep 0.3 to 0.53, with 0.18 to 0.33 near bounds
+        // and 0.44 to 0.6 at corners. Of shapes of blocks that keep as little, at most 0.32 are, but for single blocks
+        // that touch at edges and corners, which keep 0.8.
+        return {.near = 0.9, .weight = 0.6, .most = 0.3675, .few = 0.35, .most_with_few = 0.55, .corners = 0.4};
+    }
+}
+
+/// Whether a vertex has moved by at least the fraction `near` of its half-width, in a direction in which bounds are
+/// widest, in steps; nothing for vertices with less than the whole bounds.
+std::optional<bool> is_near_bound(const Boxes& boxes, const Point& steps, double near, const Points& positions, Index v)
+{
+    if (!boxes.flat.empty() && boxes.flat[v] != 0)
+        return std::nullopt;
+    const Point motion = (positions.row(v) - boxes.middles.row(v)).cwiseAbs();
+    const Point half_width = boxes.half_widths.row(v);
+    const Point in_steps = (steps.array() > 0.0).select(half_width.array() / steps.array(), 0.0);
+    // Within a part of the bounds, which a strength leaves, more vertices are near them.
+    constexpr double nearly_half = 0.49;
+    if (!(in_steps.maxCoeff() > nearly_half))
+        return std::nullopt;
+    return (in_steps.array() >= near * in_steps.maxCoeff() && motion.array() >= near * half_width.array()).any();
+}
+
+/// Per part: of the vertices for which a property is known, the fraction that has it; 1 if it is known of none.
+/// @param has gives an optional bool for each vertex.
+template <class Has>
+std::vector<double> fractions_with(const SurfaceParts& parts, Index n_vertices, Has&& has)
+{
+    std::vector<double> with(usize(parts.count()), 0.0);
+    std::vector<double> all(usize(parts.count()), 0.0);
+    for (Index v = 0; v < n_vertices; ++v)
+        if (const Index part = parts.of_vertex(v); part >= 0)
+            if (const std::optional<bool> known = has(v)) {
+                all[part] += 1.0;
+                with[part] += *known ? 1.0 : 0.0;
+            }
+    for (std::size_t part = 0; part < all.size(); ++part)
+        with[part] = all[part] > 0.0 ? with[part] / all[part] : 1.0;
+    return with;
+}
+
+/// #V: 1 at corners of voxels: vertices of faces across all three axes.
+std::vector<std::uint8_t> corners_of_voxels(const PolygonMesh& mesh, const Points& points)
+{
+    constexpr double nearly_one = 0.999;
+    constexpr unsigned all_axes = 7;
+    std::vector<std::uint8_t> axes(static_cast<std::size_t>(points.rows()), 0);
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        const Point area = vector_area(mesh.face(f), points);
+        for (unsigned axis = 0; axis < 3; ++axis)
+            if (std::abs(area[axis]) > nearly_one * area.norm())
+                for (const Index v : mesh.face(f))
+                    axes[usize(v)] = static_cast<std::uint8_t>(axes[usize(v)] | 1U << axis);
+    }
+    for (std::uint8_t& bits : axes)
+        bits = bits == all_axes ? 1 : 0;
+    return axes;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> parts_explained_by_rounding(const SurfaceParts& parts, const CoordinateBounds& bounds,
+                                                      const Boxes& boxes, const Points& positions, bool knows_vessels,
+                                                      const Executor& exec)
+{
+    const auto n_vertices = static_cast<Index>(positions.rows());
+    const Evidence evidence = evidence_for(bounds);
+    const std::vector<double> before = parts.bending(boxes, boxes.middles, exec);
+    const std::vector<double> after = parts.bending(boxes, positions, exec);
+    const std::vector<double> near = fractions_with(parts, n_vertices, [&](Index v) {
+        // Nothing shows that bounds suffice where no vertex has whole ones.
+        return is_near_bound(boxes, bounds.steps, evidence.near, positions, v);
+    });
+    std::vector<std::uint8_t> explained(before.size(), 0);
+    std::vector<std::uint8_t> may_be_vessel(before.size(), 0);
+    for (std::size_t part = 0; part < before.size(); ++part)
+        if (before[part] > 0.0) {
+            const double bending = after[part] / before[part];
+            explained[part] = evidence.explains(bending, near[part]) ? 1 : 0;
+            may_be_vessel[part] = evidence.explains_with_few(bending, near[part]) ? 1 : 0;
+        }
+    if (std::ranges::find(may_be_vessel, 1) == may_be_vessel.end())
+        return explained;
+    if (evidence.corners > 0.0) {
+        const std::vector<std::uint8_t> is_corner = corners_of_voxels(parts.mesh(), boxes.middles);
+        const std::vector<double> corners =
+            fractions_with(parts, n_vertices, [&](Index v) { return std::optional(is_corner[v] != 0); });
+        for (std::size_t part = 0; part < corners.size(); ++part)
+            if (!knows_vessels || corners[part] < evidence.corners)
+                may_be_vessel[part] = 0;
+    }
+    for (std::size_t part = 0; part < explained.size(); ++part)
+        explained[part] = std::max(explained[part], may_be_vessel[part]);
+    return explained;
+}
+
+}  // namespace seamflow
