@@ -1,6 +1,8 @@
 #include "solvers/rounding/common_drift.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -22,8 +24,8 @@ Points normals_of_moving(const PolygonMesh& mesh, const Topology& topology, cons
     return normals;
 }
 
-/// Replaces each height, several times, by the mean of itself and the mean of its neighbours. Heights change sides where
-/// normals do: faces need not be oriented alike. Neighbours without a normal count as 0.
+/// Replaces each height, several times, by the mean of itself and the mean of its neighbours. Heights change sides
+/// where normals do: faces need not be oriented alike. Neighbours without a normal count as 0.
 void average(const IndexLists& neighbours, const Points& normals, int rounds, std::vector<double>& heights,
              const Executor& exec)
 {
@@ -43,21 +45,24 @@ void average(const IndexLists& neighbours, const Points& normals, int rounds, st
 
 }  // namespace
 
-void take_back_drift(const PolygonMesh& mesh, const Topology& topology, const IndexLists& neighbours,
-                     const Boxes& boxes, int rounds, double by_chance, Points& positions, const Executor& exec)
+double take_back_drift(const PolygonMesh& mesh, const Topology& topology, const IndexLists& neighbours,
+                       const Boxes& boxes, int rounds, double by_chance, Points& positions, const Executor& exec)
 {
     const Points normals = normals_of_moving(mesh, topology, boxes, positions, exec);
     std::vector<double> drift(static_cast<std::size_t>(positions.rows()));
     for_each(exec, static_cast<Index>(positions.rows()),
              [&](Index v) { drift[v] = normals.row(v).dot(boxes.middles.row(v) - positions.row(v)); });
     average(neighbours, normals, rounds, drift, exec);
-    for_each(exec, static_cast<Index>(positions.rows()), [&](Index v) {
-        if (!(std::abs(drift[v]) > by_chance) || normals.row(v).isZero(0.0))
-            return;
+    const std::vector<Index> drifted = select(exec, static_cast<Index>(positions.rows()), [&](Index v) {
+        return std::abs(drift[v]) > by_chance && !normals.row(v).isZero(0.0);
+    });
+    for_each(exec, static_cast<Index>(drifted.size()), [&](Index i) {
+        const Index v = drifted[usize(i)];
         const double chance = by_chance / drift[v];
         const Point back = (1.0 - chance * chance) * drift[v] * normals.row(v);
         positions.row(v) = boxes.nearest(v, positions.row(v) + back);
     });
+    return static_cast<double>(drifted.size()) / static_cast<double>(std::max<std::size_t>(drift.size(), 1));
 }
 
 }  // namespace seamflow

@@ -18,8 +18,8 @@
 #include "solvers/rounding/joined_copies.h"
 #include "solvers/rounding/kept_volumes.h"
 #include "solvers/rounding/missing_data.h"
-#include "solvers/rounding/normals_in_boxes.h"
 #include "solvers/rounding/rounding_evidence.h"
+#include "solvers/rounding/smoothest_normals.h"
 #include "solvers/rounding/surface_parts.h"
 #include "solvers/rounding/uncrossed_faces.h"
 
@@ -108,48 +108,6 @@ CoordinateBounds bounds_for(const MovingSurface& surface, const SurfaceParts& pa
     return bounds;
 }
 
-/// Takes the positions of the vertices of some parts.
-void take(const SurfaceParts& parts, const std::vector<std::uint8_t>& taken, const Points& from, Points& positions,
-          const Executor& exec)
-{
-    for_each(exec, static_cast<Index>(positions.rows()), [&](Index v) {
-        if (const Index part = parts.of_vertex(v); part >= 0 && taken[part] != 0)
-            positions.row(v) = from.row(v);
-    });
-}
-
-/// How much less a surface bends whose edges are kept, if it is the better one: its bending is below this fraction of
-/// that of the other one. Thin vessels of voxels, which keep at least the given fraction of their bending, are as good
-/// prisms as tubes: fractions are 0.906 to 1.07 for tubes and trees of radius 1 to 2, 0.68 to 0.88 for boxes of 4 to 14
-/// voxels.
-constexpr double bends_less = 0.98;
-constexpr double bends_less_if_thin = 0.9;
-constexpr double thin_bending = 0.3;
-
-/// Smooths normals in both ways, and takes for each part the surface that bends less.
-/// @param volumes those that are kept. @param positions #V by 3: in the boxes; replaced.
-void smooth_normals(const MovingSurface& surface, const KeptVolumes& volumes, const Boxes& boxes,
-                    CoordinateBounds::Kind kind, Points& positions, const Executor& exec)
-{
-    const Components components = face_components(surface.mesh, surface.topology);
-    const SurfaceParts parts(surface.mesh, surface.topology, components);
-    NormalsInBoxes normals(surface.mesh, surface.topology, parts, volumes, boxes, exec);
-    Points with_edges = positions;
-    const std::vector<double> bending = normals.smooth(NormalNeighbours::All, positions);
-    std::vector<double> to_beat(bending.size());
-    const bool may_be_thin = kind == CoordinateBounds::Kind::Any;
-    const std::vector<double> before = may_be_thin ? normals.bending(boxes.middles) : std::vector<double>();
-    for (std::size_t part = 0; part < bending.size(); ++part) {
-        const bool is_thin = may_be_thin && bending[part] >= thin_bending * before[part];
-        to_beat[part] = (is_thin ? bends_less_if_thin : bends_less) * bending[part];
-    }
-    const std::vector<double> of_edges = normals.smooth(NormalNeighbours::SameSideOfEdge, with_edges, to_beat);
-    std::vector<std::uint8_t> taken(bending.size(), 0);
-    for (std::size_t part = 0; part < bending.size(); ++part)
-        taken[part] = of_edges[part] < to_beat[part] ? 1 : 0;
-    take(parts, taken, with_edges, positions, exec);
-}
-
 /// Smooths a surface within bounds.
 class SmoothingInBounds {
   public:
@@ -185,7 +143,8 @@ class SmoothingInBounds {
                                            result.positions, exec_);
         result.fairing.last_motion /= smallest_step;
         const Points fair = result.positions;
-        smooth_normals(surface_, volumes_, boxes, bounds.kind, result.positions, exec_);
+        SmoothestNormals normals(surface_.mesh, surface_.topology, volumes_, boxes, bounds.kind, exec_);
+        normals.smooth(result.positions);
         surface_.copy_to_copies(result.positions);
         if (judges) {
             // Thin vessels beside others lose a part of their volume.
@@ -194,7 +153,7 @@ class SmoothingInBounds {
             if (std::ranges::find(explained_, 1) == explained_.end())
                 return std::nullopt;
         }
-        take_back_drift_within(bounds, boxes, result.positions);
+        take_back_drift_within(bounds, boxes, normals, result.positions);
         result.is_smoothed = hold_others(bounds.half_widths);
         for_each(exec_, static_cast<Index>(positions_.rows()),
                  [&](Index v) { result.positions.row(v) = boxes.nearest(v, result.positions.row(v)); });
@@ -204,20 +163,33 @@ class SmoothingInBounds {
     }
 
   private:
-    /// Takes back the drift of voxels and marching cubes of equal steps. Terraces of heights and between slices are so
-    /// wide that neighbours lie on one side by rounding.
-    void take_back_drift_within(const CoordinateBounds& bounds, const Boxes& boxes, Points& positions) const
+    /// Takes back the drift of voxels and marching cubes of equal steps, and where many vertices have drifted, smooths
+    /// what is not thin once more. Terraces of heights and between slices are so wide that neighbours lie on one side
+    /// by rounding.
+    void take_back_drift_within(const CoordinateBounds& bounds, const Boxes& boxes, SmoothestNormals& normals,
+                                Points& positions) const
     {
         const bool is_marching_cubes = bounds.kind == CoordinateBounds::Kind::MarchingCubes;
         if (bounds.kind == CoordinateBounds::Kind::Heights || !has_equal_steps(bounds.steps))
             return;
-        // Egg crates of 3 and 4 voxels: 0.099 to 0.175 voxels from the truth become 0.07 to 0.13, by marching cubes
-        // 0.154 to 0.196 become 0.12 to 0.13. A ball of radius 16 stays at 0.026.
+        // Egg crates of 3 and 4 voxels: 0.099 to 0.175 voxels from the truth become 0.07 to 0.15, by marching cubes
+        // 0.154 to 0.196 become 0.10 to 0.14. A ball of radius 16 stays at 0.026.
         const int rounds = is_marching_cubes ? 24 : 40;
         const double by_chance = (is_marching_cubes ? 0.03 : 0.04) * bounds.steps.maxCoeff();
-        take_back_drift(surface_.mesh, surface_.topology, surface_.neighbours, boxes, rounds, by_chance, positions,
-                        exec_);
-        volumes_.restore(boxes, positions, exec_);
+        const auto take_back = [&](Points& drifted) {
+            const double part = take_back_drift(surface_.mesh, surface_.topology, surface_.neighbours, boxes, rounds,
+                                                by_chance, drifted, exec_);
+            volumes_.restore(boxes, drifted, exec_);
+            surface_.copy_to_copies(drifted);
+            return part;
+        };
+        constexpr double many = 0.1;
+        if (take_back(positions) < many)
+            return;
+        Points again = positions;
+        normals.smooth(again);
+        take_back(again);
+        normals.take_unless_thin(again, positions);
         surface_.copy_to_copies(positions);
     }
 

@@ -236,7 +236,7 @@ TEST_CASE("crests and valleys keep their height")
         };
         const auto result = smoothed(mesh);
         REQUIRE(result);
-        // 0.953 and 0.966 are measured, and without what is taken back 0.866 and 0.879.
+        // 0.953 and 0.951 are measured, and without what is taken back 0.866 and 0.879.
         CHECK(mean_height_over_crests(result->positions) > 0.93);
         // It makes no difference whether faces are turned outwards or inwards.
         const Points outwards = result->positions;
