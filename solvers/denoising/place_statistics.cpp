@@ -1,6 +1,7 @@
 #include "solvers/denoising/place_statistics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -43,8 +44,11 @@ constexpr int last_lag = 18;
 constexpr std::size_t fewest_in_correlation = 50;
 constexpr float fewest_pairs = 0.35F;
 /// The columns of TakenAway::displacements.
-constexpr int of_denoiser = 0;
-constexpr int of_low_pass_filter = 1;
+constexpr Index n_columns = 2;
+constexpr Index of_denoiser = 0;
+constexpr Index of_low_pass_filter = 1;
+/// One height of each column.
+using Heights = std::array<float, n_columns>;
 /// Quadratic functions are fitted to the surface around some vertices: the number of these vertices; the two radii of
 /// the fits around each, in edge lengths; and the fewest vertices of a fit.
 constexpr std::size_t n_fits = 48;
@@ -62,28 +66,35 @@ float median_of(std::vector<float>& numbers)
     return *middle;
 }
 
-/// The autocorrelation of numbers at points of a plane: for each difference of two points, rounded to whole numbers,
-/// the mean product of their numbers over the mean square.
-class Autocorrelation {
+/// The autocorrelations of columns of numbers at points of a plane: for each difference of two points, rounded to whole
+/// numbers, the mean product of their numbers over the mean square. All columns are measured at once, because to find
+/// the cell of a difference takes longest.
+class Autocorrelations {
   public:
-    Autocorrelation(std::span<const Eigen::Vector2f> points, std::span<const float> numbers)
+    Autocorrelations(std::span<const Eigen::Vector2f> points, std::span<const Heights> numbers)
         : n_points_(static_cast<float>(points.size()))
     {
-        for (std::size_t i = 0; i < points.size(); ++i)
+        // Per point and column: the number, and half its square.
+        std::vector<Sums> terms;
+        for (const Heights& number : numbers)
+            terms.emplace_back(number[0], 0.5F * (number[0] * number[0]), number[1], 0.5F * (number[1] * number[1]));
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Sums factor(numbers[i][0], 1.0F, numbers[i][1], 1.0F);
+            const Sums square(0.0F, terms[i][1], 0.0F, terms[i][3]);
             for (std::size_t j = 0; j < i; ++j) {
                 const Eigen::Vector2f difference = points[i] - points[j];
                 if (std::max(std::abs(difference.x()), std::abs(difference.y())) >= last_lag + 0.5F)
                     continue;
-                Cell& cell = cell_of(difference);
-                cell.products += numbers[i] * numbers[j];
-                cell.squares += 0.5F * (numbers[i] * numbers[i] + numbers[j] * numbers[j]);
-                cell.pairs += 1.0F;
+                const std::size_t cell = cell_index(difference);
+                sums_[cell] += factor * terms[j] + square;
+                pairs_[cell] += 1.0F;
             }
+        }
     }
 
-    /// The largest rise of the autocorrelation after it has fallen: the most, over all directions and lags, by which a
-    /// value exceeds the least value at shorter lags in its direction.
-    [[nodiscard]] float revival() const
+    /// The largest rise of the autocorrelation of a column after it has fallen: the most, over all directions and lags,
+    /// by which a value exceeds the least value at shorter lags in its direction.
+    [[nodiscard]] float revival(std::size_t column) const
     {
         float most = 0.0F;
         for (int direction = 0; direction < n_directions; ++direction) {
@@ -91,10 +102,15 @@ class Autocorrelation {
             const Eigen::Vector2f way(std::cos(angle), std::sin(angle));
             float least = 1.0F;
             for (int lag = 1; lag <= last_lag; ++lag) {
-                const Cell there = around(static_cast<float>(lag) * way);
-                if (there.pairs < fewest_pairs * n_points_ || there.squares <= 0.0F)
+                // The autocorrelation is the same at a difference and at its negative.
+                const std::size_t here = cell_index(static_cast<float>(lag) * way);
+                const std::size_t opposite = cell_index(static_cast<float>(-lag) * way);
+                const Sums sums = sums_[here] + sums_[opposite];
+                const float products = sums[static_cast<Eigen::Index>(2 * column)];
+                const float squares = sums[static_cast<Eigen::Index>(2 * column + 1)];
+                if (pairs_[here] + pairs_[opposite] < fewest_pairs * n_points_ || squares <= 0.0F)
                     continue;
-                const float value = there.products / there.squares;
+                const float value = products / squares;
                 if (lag >= first_lag)
                     most = std::max(most, value - least);
                 least = std::min(least, value);
@@ -104,35 +120,31 @@ class Autocorrelation {
     }
 
   private:
-    /// Sums over the pairs of points whose difference rounds to one point of the grid.
-    struct Cell {
-        float products = 0.0F;
-        float squares = 0.0F;
-        float pairs = 0.0F;
-    };
+    /// Per column: the sum of products, and that of the mean squares, over the pairs of points whose difference rounds
+    /// to one point of the grid.
+    using Sums = Eigen::Array4f;
 
     static constexpr int width = 2 * last_lag + 1;
+    static constexpr std::size_t n_cells = static_cast<std::size_t>(width) * width;
 
-    /// The index in cells_ of the grid point nearest to a difference.
+    /// The nearest whole number, as std::lround finds it, which takes a call.
+    [[nodiscard]] static int nearest(float number)
+    {
+        return static_cast<int>(static_cast<double>(number) + std::copysign(0.5, static_cast<double>(number)));
+    }
+
+    /// The index of the grid point nearest to a difference.
     [[nodiscard]] static std::size_t cell_index(const Eigen::Vector2f& difference)
     {
-        const int x = static_cast<int>(std::lround(difference.x())) + last_lag;
-        const int y = static_cast<int>(std::lround(difference.y())) + last_lag;
+        const int x = nearest(difference.x()) + last_lag;
+        const int y = nearest(difference.y()) + last_lag;
         return static_cast<std::size_t>(std::clamp(y, 0, width - 1) * width + std::clamp(x, 0, width - 1));
     }
 
-    Cell& cell_of(const Eigen::Vector2f& difference) { return cells_[cell_index(difference)]; }
-
-    /// The sums over the grid cells of a difference and of its negative.
-    [[nodiscard]] Cell around(const Eigen::Vector2f& difference) const
-    {
-        const Cell& here = cells_[cell_index(difference)];
-        const Cell& opposite = cells_[cell_index(-difference)];
-        return {here.products + opposite.products, here.squares + opposite.squares, here.pairs + opposite.pairs};
-    }
-
     float n_points_;
-    std::array<Cell, static_cast<std::size_t>(width) * width> cells_{};
+    std::vector<Sums> sums_ = std::vector<Sums>(n_cells, Sums::Zero());
+    /// Per cell: the number of pairs.
+    std::vector<float> pairs_ = std::vector<float>(n_cells, 0.0F);
 };
 
 /// The surroundings of a place: the vertices around its middle, with their data.
@@ -165,8 +177,11 @@ class Place {
                     noise.push_back(taken_.noise[taken_.topology.face_of[corner]]);
         }
         found.noise = median_of(noise);
+        const std::array<float, n_columns> revivals = this->revivals();
         found.fine = statistics_of(of_denoiser);
+        found.fine.revival = revivals[of_denoiser];
         found.wide = statistics_of(of_low_pass_filter);
+        found.wide.revival = revivals[of_low_pass_filter];
         found.smoothness = smoothness();
         return found;
     }
@@ -211,20 +226,26 @@ class Place {
         }
     }
 
-    /// The statistics of one column of displacements. These are turned into heights: displacements towards the side to
-    /// which the normal of the middle points. @param column of_denoiser or of_low_pass_filter.
-    [[nodiscard]] RemovalStatistics statistics_of(int column) const
+    /// The displacement of a vertex of vertices_ as a height: towards the side to which the normal of the middle
+    /// points. @param column of_denoiser or of_low_pass_filter.
+    [[nodiscard]] float height(std::size_t i, Index column) const
+    {
+        return signs_[i] * taken_.displacements(vertices_[i], column);
+    }
+
+    /// The statistics of one column of displacements, but for the revival.
+    [[nodiscard]] RemovalStatistics statistics_of(Index column) const
     {
         std::vector<float> heights;
         for (std::size_t i = 0; i < vertices_.size(); ++i)
-            heights.push_back(signs_[i] * taken_.displacements(vertices_[i], column));
+            heights.push_back(height(i, column));
         std::vector<float> sizes;
         for (std::size_t i = 0; i < vertices_.size(); ++i)
             if (counts_[i] != 0 && is_near_[i] != 0)
                 sizes.push_back(std::abs(heights[i]));
         return {.median = median_of(sizes),
                 .correlation = correlation(heights),
-                .revival = revival(heights),
+                .revival = 0.0F,
                 .kurtosis = kurtosis(heights)};
     }
 
@@ -248,30 +269,42 @@ class Place {
         return squares > 0.0F ? products / squares : 0.0F;
     }
 
-    /// The revival of the heights (see Autocorrelation::revival) at vertices whose normals are near the normal of the
-    /// middle, or near its opposite; 0 if there are too few.
-    [[nodiscard]] float revival(std::span<const float> heights) const
+    /// The revival of the heights of each column (see Autocorrelations::revival) at vertices whose normals are near the
+    /// normal of the middle, or near its opposite; 0 if there are too few.
+    [[nodiscard]] std::array<float, n_columns> revivals() const
     {
         std::vector<Eigen::Vector2f> points;
-        std::vector<float> numbers;
-        std::vector<float> sizes;
+        std::vector<Heights> numbers;
         for (std::size_t i = 0; i < vertices_.size(); ++i)
             if (counts_[i] != 0 && is_facing_[i] != 0) {
                 points.push_back(plane_[i]);
-                numbers.push_back(heights[i]);
-                sizes.push_back(std::abs(heights[i]));
+                numbers.push_back({height(i, of_denoiser), height(i, of_low_pass_filter)});
             }
+        std::array<float, n_columns> found{};
         if (points.size() < fewest_in_correlation)
-            return 0.0F;
+            return found;
+        for (std::size_t column = 0; column < n_columns; ++column)
+            bound(numbers, column);
+        const Autocorrelations correlations(points, numbers);
+        for (std::size_t column = 0; column < n_columns; ++column)
+            found[column] = correlations.revival(column);
+        return found;
+    }
+
+    /// Bounds the heights of a column, and subtracts their mean.
+    static void bound(std::vector<Heights>& numbers, std::size_t column)
+    {
+        std::vector<float> sizes;
+        for (const Heights& number : numbers)
+            sizes.push_back(std::abs(number[column]));
         const float most = most_medians_of_height * median_of(sizes);
         float mean = 0.0F;
-        for (float& number : numbers) {
-            number = std::clamp(number, -most, most);
-            mean += number / static_cast<float>(numbers.size());
+        for (Heights& number : numbers) {
+            number[column] = std::clamp(number[column], -most, most);
+            mean += number[column] / static_cast<float>(numbers.size());
         }
-        for (float& number : numbers)
-            number -= mean;
-        return Autocorrelation(points, numbers).revival();
+        for (Heights& number : numbers)
+            number[column] -= mean;
     }
 
     /// The kurtosis of the heights: the mean fourth power over the square of the mean square, both about the mean.
