@@ -74,18 +74,24 @@ class Autocorrelations {
     Autocorrelations(std::span<const Eigen::Vector2f> points, std::span<const Heights> numbers)
         : n_points_(static_cast<float>(points.size()))
     {
+        const std::size_t n = points.size();
         // Per point and column: the number, and half its square.
         std::vector<Sums> terms;
-        for (const Heights& number : numbers)
+        std::vector<float> x;
+        std::vector<float> y;
+        for (std::size_t i = 0; i < n; ++i) {
+            const Heights& number = numbers[i];
             terms.emplace_back(number[0], 0.5F * (number[0] * number[0]), number[1], 0.5F * (number[1] * number[1]));
-        for (std::size_t i = 0; i < points.size(); ++i) {
+            x.push_back(points[i].x());
+            y.push_back(points[i].y());
+        }
+        std::vector<int> cells(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            find_cells(x[i], y[i], std::span(x).first(i), std::span(y).first(i), cells);
             const Sums factor(numbers[i][0], 1.0F, numbers[i][1], 1.0F);
             const Sums square(0.0F, terms[i][1], 0.0F, terms[i][3]);
             for (std::size_t j = 0; j < i; ++j) {
-                const Eigen::Vector2f difference = points[i] - points[j];
-                if (std::max(std::abs(difference.x()), std::abs(difference.y())) >= last_lag + 0.5F)
-                    continue;
-                const std::size_t cell = cell_index(difference);
+                const auto cell = static_cast<std::size_t>(cells[j]);
                 sums_[cell] += factor * terms[j] + square;
                 pairs_[cell] += 1.0F;
             }
@@ -125,26 +131,47 @@ class Autocorrelations {
     using Sums = Eigen::Array4f;
 
     static constexpr int width = 2 * last_lag + 1;
-    static constexpr std::size_t n_cells = static_cast<std::size_t>(width) * width;
+    static constexpr int n_cells = width * width;
 
-    /// The nearest whole number, as std::lround finds it, which takes a call.
-    [[nodiscard]] static int nearest(float number)
+    /// The whole number nearest to one that is below 2²², and of two the one further from 0, as std::lround finds it.
+    /// It has no branches and calls, so that compilers find many at once.
+    [[nodiscard]] static float nearest(float number)
     {
-        return static_cast<int>(static_cast<double>(number) + std::copysign(0.5, static_cast<double>(number)));
+        // Here numbers in single precision are whole.
+        constexpr float whole = 12582912.0F;
+        const float even = (number + whole) - whole;
+        const float up = (number - even == 0.5F && number > 0.0F) ? 1.0F : 0.0F;
+        const float down = (number - even == -0.5F && number < 0.0F) ? 1.0F : 0.0F;
+        return even + up - down;
+    }
+
+    /// Finds the cells of the differences of one point from others.
+    /// @param cells receives the indices, of differences beyond the last lag n_cells.
+    static void find_cells(float x, float y, std::span<const float> xs, std::span<const float> ys,
+                           std::vector<int>& cells)
+    {
+        constexpr float beyond = last_lag + 0.5F;
+        for (std::size_t j = 0; j < xs.size(); ++j) {
+            const float dx = x - xs[j];
+            const float dy = y - ys[j];
+            const float index = (nearest(dy) + last_lag) * width + (nearest(dx) + last_lag);
+            cells[j] = static_cast<int>(std::abs(dx) < beyond && std::abs(dy) < beyond ? index : n_cells);
+        }
     }
 
     /// The index of the grid point nearest to a difference.
     [[nodiscard]] static std::size_t cell_index(const Eigen::Vector2f& difference)
     {
-        const int x = nearest(difference.x()) + last_lag;
-        const int y = nearest(difference.y()) + last_lag;
+        const int x = static_cast<int>(nearest(difference.x())) + last_lag;
+        const int y = static_cast<int>(nearest(difference.y())) + last_lag;
         return static_cast<std::size_t>(std::clamp(y, 0, width - 1) * width + std::clamp(x, 0, width - 1));
     }
 
     float n_points_;
-    std::vector<Sums> sums_ = std::vector<Sums>(n_cells, Sums::Zero());
+    /// The last cell has differences beyond the last lag.
+    std::vector<Sums> sums_ = std::vector<Sums>(n_cells + 1, Sums::Zero());
     /// Per cell: the number of pairs.
-    std::vector<float> pairs_ = std::vector<float>(n_cells, 0.0F);
+    std::vector<float> pairs_ = std::vector<float>(n_cells + 1, 0.0F);
 };
 
 /// The surroundings of a place: the vertices around its middle, with their data.

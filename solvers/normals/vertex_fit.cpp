@@ -79,32 +79,47 @@ struct WantedFaces {
     std::vector<float> weights;
 };
 
-/// The motion of one vertex in a round, without momentum.
-/// @param relaxation the fraction of the way to the mean of the neighbours; 0: none.
-Point fitting_step(const WantedFaces& faces, const Points& positions, Index v, double relaxation)
+/// How little a vertex resists relaxation in each direction: the inverse of 1 in directions along all of its faces, and
+/// more where it would leave them.
+Eigen::Matrix3d yielding(const WantedFaces& faces, Index v)
 {
-    const auto& [mesh, topology, normals, centroids, weights] = faces;
-    const Point here = positions.row(v);
-    Point fit = Point::Zero();
-    Point towards_neighbours = Point::Zero();
     Eigen::Matrix3d squared_cosines = Eigen::Matrix3d::Zero();
-    const auto corners = topology.corners_at(v);
+    const auto corners = faces.topology.corners_at(v);
     for (const Index corner : corners) {
-        const Index f = topology.face_of[corner];
-        const Point normal = normals.row(f);
-        const double weight = weights.empty() ? 1.0 : weights[corner];
-        fit += weight * normal.dot(centroids.row(f) - here) * normal;
-        if (relaxation == 0.0)
-            continue;
+        const Point normal = faces.normals.row(faces.topology.face_of[corner]);
         squared_cosines += normal.transpose() * normal;
-        for (const Index end : {topology.next(mesh, corner), topology.previous(mesh, corner)})
-            towards_neighbours += 0.5 * weight * (positions.row(mesh.face_vertices[end]) - here);
     }
     const auto n = static_cast<double>(corners.size());
-    if (relaxation == 0.0)
-        return fit / n;
     const Eigen::Matrix3d resistance = Eigen::Matrix3d::Identity() + squared_cosines / (n * half_free);
-    return (fit + relaxation * towards_neighbours * resistance.inverse()) / n;
+    return resistance.inverse();
+}
+
+/// The sum over the faces of one vertex of its motions to them.
+Point fitting_sum(const WantedFaces& faces, const Points& positions, Index v)
+{
+    const Point here = positions.row(v);
+    Point fit = Point::Zero();
+    for (const Index corner : faces.topology.corners_at(v)) {
+        const Index f = faces.topology.face_of[corner];
+        const Point normal = faces.normals.row(f);
+        const double weight = faces.weights.empty() ? 1.0 : faces.weights[corner];
+        fit += weight * normal.dot(faces.centroids.row(f) - here) * normal;
+    }
+    return fit;
+}
+
+/// The sum of the motions towards the neighbours. @param relaxation the fraction of the way.
+Point relaxing_sum(const WantedFaces& faces, const Points& positions, Index v, double relaxation,
+                   const Eigen::Matrix3d& yields)
+{
+    const Point here = positions.row(v);
+    Point towards_neighbours = Point::Zero();
+    for (const Index corner : faces.topology.corners_at(v)) {
+        const double weight = faces.weights.empty() ? 1.0 : faces.weights[corner];
+        for (const Index end : {faces.topology.next(faces.mesh, corner), faces.topology.previous(faces.mesh, corner)})
+            towards_neighbours += 0.5 * weight * (positions.row(faces.mesh.face_vertices[end]) - here);
+    }
+    return relaxation * towards_neighbours * yields;
 }
 
 }  // namespace
@@ -115,6 +130,15 @@ void fit_vertices(const PolygonMesh& mesh, const Topology& topology, const Featu
     // The relaxation equals the chord of the noise, up to a limit at which hardly any face folds.
     const double relaxation = std::min(wanted.noise, most_relaxation);
     WantedFaces faces{mesh, topology, wanted.normals, Points(mesh.n_faces(), 3), {}};
+    const auto relaxes = [&](Index v) {
+        return relaxation > 0.0 && topology.moves(v) && topology.kind[v] == VertexKind::Interior;
+    };
+    // It depends on normals alone, and takes longer than a round.
+    std::vector<Eigen::Matrix3d> yieldings(usize(mesh.n_vertices()));
+    for_each(exec, mesh.n_vertices(), [&](Index v) {
+        if (relaxes(v))
+            yieldings[v] = yielding(faces, v);
+    });
     Points before = vertices;
     for (int i = 0; i < wanted.relaxing_rounds + wanted.plain_rounds; ++i) {
         for_each(exec, mesh.n_faces(), [&](Index f) { faces.centroids.row(f) = centroid(mesh.face(f), vertices); });
@@ -124,10 +148,13 @@ void fit_vertices(const PolygonMesh& mesh, const Topology& topology, const Featu
         for_each(exec, mesh.n_vertices(), [&](Index v) {
             if (!topology.moves(v))
                 return;
-            const bool relaxes = i < wanted.relaxing_rounds && topology.kind[v] == VertexKind::Interior;
+            Point motions = fitting_sum(faces, before, v);
+            if (i < wanted.relaxing_rounds && relaxes(v))
+                motions += relaxing_sum(faces, before, v, relaxation, yieldings[v]);
+            const auto n = static_cast<double>(topology.corners_at(v).size());
             // `vertices` has the positions of the iteration before the last.
-            vertices.row(v) = lines.on_line(v, before.row(v) + fit_momentum * (before.row(v) - vertices.row(v)) +
-                                                   fitting_step(faces, before, v, relaxes ? relaxation : 0.0));
+            vertices.row(v) =
+                lines.on_line(v, before.row(v) + fit_momentum * (before.row(v) - vertices.row(v)) + motions / n);
         });
     }
 }
