@@ -87,7 +87,7 @@ class Autocorrelations {
         }
         std::vector<int> cells(n);
         for (std::size_t i = 0; i < n; ++i) {
-            find_cells(x[i], y[i], std::span(x).first(i), std::span(y).first(i), cells);
+            find_cells(x[i], y[i], x.data(), y.data(), i, cells.data());
             const Sums factor(numbers[i][0], 1.0F, numbers[i][1], 1.0F);
             const Sums square(0.0F, terms[i][1], 0.0F, terms[i][3]);
             for (std::size_t j = 0; j < i; ++j) {
@@ -133,37 +133,32 @@ class Autocorrelations {
     static constexpr int width = 2 * last_lag + 1;
     static constexpr int n_cells = width * width;
 
-    /// The whole number nearest to one that is below 2²², and of two the one further from 0, as std::lround finds it.
-    /// It has no branches and calls, so that compilers find many at once.
-    [[nodiscard]] static float nearest(float number)
+    /// The nearest whole number as std::lround finds it, without a call and branches, so that compilers find several at
+    /// once: of 0.5 and more the sum below rounds up, of less it does not.
+    [[nodiscard]] static int nearest(float number)
     {
-        // Here numbers in single precision are whole.
-        constexpr float whole = 12582912.0F;
-        const float even = (number + whole) - whole;
-        const float up = (number - even == 0.5F && number > 0.0F) ? 1.0F : 0.0F;
-        const float down = (number - even == -0.5F && number < 0.0F) ? 1.0F : 0.0F;
-        return even + up - down;
+        constexpr float below_half = 0.49999997F;
+        return static_cast<int>(number + std::copysign(below_half, number));
     }
 
     /// Finds the cells of the differences of one point from others.
     /// @param cells receives the indices, of differences beyond the last lag n_cells.
-    static void find_cells(float x, float y, std::span<const float> xs, std::span<const float> ys,
-                           std::vector<int>& cells)
+    static void find_cells(float x, float y, const float* xs, const float* ys, std::size_t n, int* cells)
     {
-        constexpr float beyond = last_lag + 0.5F;
-        for (std::size_t j = 0; j < xs.size(); ++j) {
-            const float dx = x - xs[j];
-            const float dy = y - ys[j];
-            const float index = (nearest(dy) + last_lag) * width + (nearest(dx) + last_lag);
-            cells[j] = static_cast<int>(std::abs(dx) < beyond && std::abs(dy) < beyond ? index : n_cells);
+        for (std::size_t j = 0; j < n; ++j) {
+            const int column = nearest(x - xs[j]) + last_lag;
+            const int row = nearest(y - ys[j]) + last_lag;
+            const bool is_beyond = (static_cast<unsigned>(column) >= static_cast<unsigned>(width)) |
+                                   (static_cast<unsigned>(row) >= static_cast<unsigned>(width));
+            cells[j] = is_beyond ? n_cells : row * width + column;
         }
     }
 
     /// The index of the grid point nearest to a difference.
     [[nodiscard]] static std::size_t cell_index(const Eigen::Vector2f& difference)
     {
-        const int x = static_cast<int>(nearest(difference.x())) + last_lag;
-        const int y = static_cast<int>(nearest(difference.y())) + last_lag;
+        const int x = nearest(difference.x()) + last_lag;
+        const int y = nearest(difference.y()) + last_lag;
         return static_cast<std::size_t>(std::clamp(y, 0, width - 1) * width + std::clamp(x, 0, width - 1));
     }
 
