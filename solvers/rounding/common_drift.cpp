@@ -1,8 +1,6 @@
 #include "solvers/rounding/common_drift.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -45,15 +43,16 @@ void average(const IndexLists& neighbours, const Points& normals, int rounds, st
 
 }  // namespace
 
-double take_back_drift(const PolygonMesh& mesh, const Topology& topology, const IndexLists& neighbours,
-                       const Boxes& boxes, int rounds, double by_chance, Points& positions, const Executor& exec)
+std::vector<Index> take_back_drift(const PolygonMesh& mesh, const Topology& topology, const IndexLists& neighbours,
+                                   const Boxes& boxes, int rounds, double by_chance, Points& positions,
+                                   const Executor& exec)
 {
     const Points normals = normals_of_moving(mesh, topology, boxes, positions, exec);
     std::vector<double> drift(static_cast<std::size_t>(positions.rows()));
     for_each(exec, static_cast<Index>(positions.rows()),
              [&](Index v) { drift[v] = normals.row(v).dot(boxes.middles.row(v) - positions.row(v)); });
     average(neighbours, normals, rounds, drift, exec);
-    const std::vector<Index> drifted = select(exec, static_cast<Index>(positions.rows()), [&](Index v) {
+    std::vector<Index> drifted = select(exec, static_cast<Index>(positions.rows()), [&](Index v) {
         return std::abs(drift[v]) > by_chance && !normals.row(v).isZero(0.0);
     });
     for_each(exec, static_cast<Index>(drifted.size()), [&](Index i) {
@@ -62,7 +61,7 @@ double take_back_drift(const PolygonMesh& mesh, const Topology& topology, const 
         const Point back = (1.0 - chance * chance) * drift[v] * normals.row(v);
         positions.row(v) = boxes.nearest(v, positions.row(v) + back);
     });
-    return static_cast<double>(drifted.size()) / static_cast<double>(std::max<std::size_t>(drift.size(), 1));
+    return drifted;
 }
 
 }  // namespace seamflow

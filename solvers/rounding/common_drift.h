@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "partition/executor.h"
 #include "partition/index_lists.h"
 #include "partition/polygon_mesh.h"
@@ -15,9 +17,9 @@ namespace seamflow {
 /// @param neighbours #V: the vertices that share an edge with each. @param topology vertices at junctions stay.
 /// @param rounds of averages over neighbours. @param by_chance the largest mean that chance explains, in units of
 /// length. @param positions #V by 3: in the boxes; replaced.
-/// @returns the fraction of the vertices that have gone back.
-double take_back_drift(const PolygonMesh& mesh, const Topology& topology, const IndexLists& neighbours,
-                       const Boxes& boxes, int rounds, double by_chance, Points& positions,
-                       const Executor& exec = run_serially);
+/// @returns the vertices that have gone back, ascending.
+std::vector<Index> take_back_drift(const PolygonMesh& mesh, const Topology& topology, const IndexLists& neighbours,
+                                   const Boxes& boxes, int rounds, double by_chance, Points& positions,
+                                   const Executor& exec = run_serially);
 
 }  // namespace seamflow

@@ -177,19 +177,13 @@ class SmoothingInBounds {
         const int rounds = is_marching_cubes ? 24 : 40;
         const double by_chance = (is_marching_cubes ? 0.03 : 0.04) * bounds.steps.maxCoeff();
         const auto take_back = [&](Points& drifted) {
-            const double part = take_back_drift(surface_.mesh, surface_.topology, surface_.neighbours, boxes, rounds,
-                                                by_chance, drifted, exec_);
+            const std::vector<Index> vertices = take_back_drift(surface_.mesh, surface_.topology, surface_.neighbours,
+                                                                boxes, rounds, by_chance, drifted, exec_);
             volumes_.restore(boxes, drifted, exec_);
             surface_.copy_to_copies(drifted);
-            return part;
+            return vertices;
         };
-        constexpr double many = 0.1;
-        if (take_back(positions) < many)
-            return;
-        Points again = positions;
-        normals.smooth(again);
-        take_back(again);
-        normals.take_unless_thin(again, positions);
+        normals.smooth_again(take_back(positions), take_back, positions);
         surface_.copy_to_copies(positions);
     }
 

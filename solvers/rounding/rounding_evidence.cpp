@@ -1,6 +1,7 @@
 #include "solvers/rounding/rounding_evidence.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -99,23 +100,58 @@ std::vector<double> fractions_with(const SurfaceParts& parts, Index n_vertices, 
     return with;
 }
 
-/// #V: 1 at corners of voxels: vertices of faces across all three axes.
-std::vector<std::uint8_t> corners_of_voxels(const PolygonMesh& mesh, const Points& points)
-{
-    constexpr double nearly_one = 0.999;
-    constexpr unsigned all_axes = 7;
-    std::vector<std::uint8_t> axes(static_cast<std::size_t>(points.rows()), 0);
-    for (Index f = 0; f < mesh.n_faces(); ++f) {
-        const Point area = vector_area(mesh.face(f), points);
-        for (unsigned axis = 0; axis < 3; ++axis)
-            if (std::abs(area[axis]) > nearly_one * area.norm())
+/// The corners of voxels on a surface, and the planes of its faces.
+class VoxelFaces {
+  public:
+    VoxelFaces(const SurfaceParts& parts, const Points& points, const Point& steps)
+        : steps_(steps)
+        , axes_(static_cast<std::size_t>(points.rows()), 0)
+        , planes_(usize(parts.count()))
+    {
+        constexpr double nearly_one = 0.999;
+        const PolygonMesh& mesh = parts.mesh();
+        for (Index f = 0; f < mesh.n_faces(); ++f) {
+            const Point area = vector_area(mesh.face(f), points);
+            for (unsigned axis = 0; axis < 3; ++axis) {
+                if (!(std::abs(area[axis]) > nearly_one * area.norm()))
+                    continue;
                 for (const Index v : mesh.face(f))
-                    axes[usize(v)] = static_cast<std::uint8_t>(axes[usize(v)] | 1U << axis);
+                    axes_[usize(v)] = static_cast<std::uint8_t>(axes_[usize(v)] | 1U << axis);
+                add_plane(planes_[usize(parts.of_face(f))][axis], axis, points(mesh.face(f).front(), axis));
+            }
+        }
     }
-    for (std::uint8_t& bits : axes)
-        bits = bits == all_axes ? 1 : 0;
-    return axes;
-}
+
+    /// Whether a vertex belongs to faces across all three axes.
+    [[nodiscard]] bool is_corner(Index v) const
+    {
+        constexpr unsigned all_axes = 7;
+        return axes_[usize(v)] == all_axes;
+    }
+
+    /// Whether the faces of a part across one axis lie in two planes: a picture of blocks, made thicker.
+    [[nodiscard]] bool is_extruded(std::size_t part) const
+    {
+        return std::ranges::any_of(planes_[part], [](const Planes& planes) { return planes.size() <= 2; });
+    }
+
+  private:
+    /// Different planes across one axis, no more than three.
+    using Planes = std::vector<double>;
+
+    void add_plane(Planes& planes, unsigned axis, double place) const
+    {
+        const auto is_same = [&](double other) { return std::abs(other - place) < 0.5 * steps_[axis]; };
+        if (planes.size() <= 2 && std::ranges::none_of(planes, is_same))
+            planes.push_back(place);
+    }
+
+    Point steps_;
+    /// #V: bit k is 1 at vertices of faces across axis k.
+    std::vector<std::uint8_t> axes_;
+    /// Per part and axis.
+    std::vector<std::array<Planes, 3>> planes_;
+};
 
 }  // namespace
 
@@ -142,11 +178,11 @@ std::vector<std::uint8_t> parts_explained_by_rounding(const SurfaceParts& parts,
     if (std::ranges::find(may_be_vessel, 1) == may_be_vessel.end())
         return explained;
     if (evidence.corners > 0.0) {
-        const std::vector<std::uint8_t> is_corner = corners_of_voxels(parts.mesh(), boxes.middles);
+        const VoxelFaces faces(parts, boxes.middles, bounds.steps);
         const std::vector<double> corners =
-            fractions_with(parts, n_vertices, [&](Index v) { return std::optional(is_corner[v] != 0); });
+            fractions_with(parts, n_vertices, [&](Index v) { return std::optional(faces.is_corner(v)); });
         for (std::size_t part = 0; part < corners.size(); ++part)
-            if (!knows_vessels || corners[part] < evidence.corners)
+            if (!knows_vessels || corners[part] < evidence.corners || faces.is_extruded(part))
                 may_be_vessel[part] = 0;
     }
     for (std::size_t part = 0; part < explained.size(); ++part)

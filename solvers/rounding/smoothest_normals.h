@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "partition/connected_components.h"
@@ -27,14 +28,15 @@ class SmoothestNormals {
     /// @param positions #V by 3: in the boxes; replaced.
     void smooth(Points& positions);
 
-    /// Takes other positions for the parts that are not thin: parts that keep little of the bending that they have in
-    /// the middles of their boxes.
-    /// @param from, positions #V by 3.
-    void take_unless_thin(const Points& from, Points& positions) const;
+    /// Smooths some parts once more: those that keep so little of the bending that they
+    /// have in the middles of their boxes that they are not thin, and of whose vertices many are among the given ones.
+    /// @param vertices ascending. @param change is called for the new positions before they are taken.
+    void smooth_again(const std::vector<Index>& vertices, const std::function<void(Points&)>& change,
+                      Points& positions);
 
   private:
-    /// Per part: 1 if it keeps so much of its bending that it is thin.
-    [[nodiscard]] std::vector<std::uint8_t> thin_parts(const std::vector<double>& bending) const;
+    /// Per part: 1 if it keeps at least these fractions of its bending, of voxels and of marching cubes.
+    [[nodiscard]] std::vector<std::uint8_t> parts_that_keep(double of_voxels, double of_marching_cubes) const;
 
     /// Takes the positions of the vertices of some parts.
     void take(const std::vector<std::uint8_t>& taken, const Points& from, Points& positions) const;
@@ -44,8 +46,11 @@ class SmoothestNormals {
     Components components_;
     SurfaceParts parts_;
     NormalsInBoxes normals_;
-    /// Per part, in the middles of the boxes; empty where kinds have no thin parts.
+    const Boxes& boxes_;
+    /// The bending of each part in the middles of the boxes, empty where kinds have no thin parts; and when it is
+    /// smooth over all neighbours.
     std::vector<double> before_;
+    std::vector<double> smooth_;
 };
 
 }  // namespace seamflow
