@@ -167,13 +167,18 @@ std::vector<std::uint8_t> parts_explained_by_rounding(const SurfaceParts& parts,
         // Nothing shows that bounds suffice where no vertex has whole ones.
         return is_near_bound(boxes, bounds.steps, evidence.near, positions, v);
     });
+    // Diagonals of the faces of voxels bend only once these are smooth: 1.14 to 1.32 times as much for vessels.
+    constexpr double bending_of_diagonals = 1.2;
+    const PolygonMesh& mesh = parts.mesh();
+    const bool has_diagonals = evidence.corners > 0.0 && mesh.n_corners() < 4 * mesh.n_faces();
+    const double more_bending = has_diagonals ? bending_of_diagonals : 1.0;
     std::vector<std::uint8_t> explained(before.size(), 0);
     std::vector<std::uint8_t> may_be_vessel(before.size(), 0);
     for (std::size_t part = 0; part < before.size(); ++part)
         if (before[part] > 0.0) {
             const double bending = after[part] / before[part];
             explained[part] = evidence.explains(bending, near[part]) ? 1 : 0;
-            may_be_vessel[part] = evidence.explains_with_few(bending, near[part]) ? 1 : 0;
+            may_be_vessel[part] = evidence.explains_with_few(bending / more_bending, near[part]) ? 1 : 0;
         }
     if (std::ranges::find(may_be_vessel, 1) == may_be_vessel.end())
         return explained;
