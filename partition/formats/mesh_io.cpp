@@ -134,6 +134,17 @@ FileFormat recognised_format(std::string_view content)
     return word.ends_with("OFF") ? FileFormat::Off : FileFormat::Obj;
 }
 
+/// Refuses content that has the signature of another format than its file's extension names.
+void require_content_of(FileFormat format, const std::filesystem::path& path, std::string_view content)
+{
+    const FileFormat found = recognised_format(content);
+    // OBJ has no signature, and the header of a binary STL may hold any words.
+    if (found == format || found == FileFormat::Obj || (format == FileFormat::Stl && is_stl(content)))
+        return;
+    throw InputError(fmt::format("{}: this is no {} file, but has the format {}; give it the extension {}",
+                                 path.string(), traits_of(format).name, traits_of(found).name, extension_of(found)));
+}
+
 const Format& functions_of(FileFormat format)
 {
     return all_formats[static_cast<std::size_t>(format)];
@@ -159,6 +170,8 @@ MeshFile read(const std::filesystem::path& path, const Executor& exec, FaultLog*
         const InputFile input(open);
         if (!format)
             format = recognised_format(input.content());
+        else
+            require_content_of(*format, path, input.content());
         if (const auto with_others = functions_of(*format).with_others; with_others != nullptr)
             if (auto all = with_others(open, input.content())) {
                 const InputFile content(*all);

@@ -1,7 +1,9 @@
 #include <array>
 #include <clocale>
+#include <filesystem>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -128,6 +130,39 @@ TEST_CASE("The extension may be in upper case")
     CHECK(read_text("A.OBJ", "v 0 0 0\n").kind.format == FileFormat::Obj);
     CHECK(format_of("a.GlTf") == FileFormat::Gltf);
     CHECK(read_text("a.OfF", "OFF 1 0 0\n0 0 0\n").kind.format == FileFormat::Off);
+}
+
+TEST_CASE("Content of another format than the extension names is refused, with the right extension")
+{
+    const TemporaryDirectory folder;
+    for (const Variant& variant : variants) {
+        const auto right = folder.path() / variant.name;
+        write_mesh(right, make_triangle(), variant.kind);
+        for (const FormatTraits& other : format_traits) {
+            if (other.format == variant.kind.format)
+                continue;
+            CAPTURE(std::string(variant.name));
+            CAPTURE(std::string(other.extension));
+            const auto misnamed = folder.path() / ("misnamed" + std::string(other.extension));
+            std::filesystem::copy_file(right, misnamed, std::filesystem::copy_options::overwrite_existing);
+            const std::string message = message_of_reading(misnamed);
+            // OBJ has no signature: readers say what they miss.
+            if (variant.kind.format != FileFormat::Obj)
+                CHECK(message == misnamed.string() + ": this is no " + std::string(other.name) +
+                                     " file, but has the format " + std::string(traits_of(variant.kind.format).name) +
+                                     "; give it the extension " + extension_of(variant.kind.format));
+            else
+                CHECK_FALSE(message.empty());
+        }
+    }
+    // The header of a binary STL may hold any words.
+    const auto stl = folder.path() / "a.stl";
+    write_mesh(stl, make_triangle(), {FileFormat::Stl, Encoding::BinaryLittleEndian});
+    for (const std::string words : {"ply\n", "{ }\n", "OFF\n", "glTF", "solid\n"}) {
+        std::string content = content_of(stl);
+        content.replace(0, words.size(), words);
+        CHECK(read_mesh(folder.with("a.stl", content)).mesh.n_faces() == 1);
+    }
 }
 
 TEST_CASE("The kind of an output follows its extension, and its source where the format is the same")

@@ -59,7 +59,7 @@ TEST_CASE("OFF: numbers after the coordinates and colours of faces are passed ov
 
 TEST_CASE("OFF: every complaint names the line")
 {
-    CHECK(contains(off_complaint("solid\n"), "a.off:1: the file begins with 'solid' and not with OFF"));
+    CHECK(contains(off_complaint("hello\n"), "a.off:1: the file begins with 'hello' and not with OFF"));
     CHECK(contains(off_complaint("OFFSET 1 2 3\n"), "not with OFF"));
     CHECK(contains(off_complaint("# nothing\n"), "a.off:1: the file holds no mesh"));
     CHECK(contains(off_complaint("NOFF BINARY\n"), "a.off:1: binary OFF files with more than coordinates and faces"));
