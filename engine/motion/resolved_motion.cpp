@@ -50,6 +50,13 @@ void feather(MotionOptions& motion, double length, const PolygonMesh& mesh, cons
                                         100.0 * largest() / given)}});
 }
 
+/// Whether the area that results would get back is that of noise: where a run chooses how much to smooth, which the
+/// volume limits. Scaled to it, the surface would be blown up.
+bool restores_area_of_noise(const MotionOptions& motion)
+{
+    return motion.rescale == Rescale::Area && std::isfinite(motion.limits.volume);
+}
+
 }  // namespace
 
 MotionOptions with_lengths(MotionOptions motion, LengthScale& scale)
@@ -63,12 +70,19 @@ MotionOptions with_lengths(MotionOptions motion, LengthScale& scale)
         motion.attachment = attachment_of(*motion.attachment_radius, scale);
         motion.attachment_radius.reset();
     }
+    if (restores_area_of_noise(motion))
+        motion.rescale = Rescale::None;
     return motion;
 }
 
 MotionOptions resolved(MotionOptions motion, const PolygonMesh& mesh, LengthScale& scale, const Executor& exec,
                        std::vector<Remark>& remarks)
 {
+    if (restores_area_of_noise(motion))
+        remarks.push_back({"area not restored",
+                           {},
+                           {"The area was not restored: noise has a part of it, with which the surface would be blown "
+                            "up. <rescale volume> restores volumes."}});
     MotionOptions own = with_lengths(std::move(motion), scale);
     if (own.feather) {
         require_valid(mesh, exec);

@@ -11,9 +11,10 @@
 namespace seamflow {
 
 /// The options with all lengths in units of length, with MotionOptions::attachment = 1/R² in place of the radius R in
-/// attachment_radius, and with strengths that already rise over the distance MotionOptions::feather.
+/// attachment_radius, with strengths that already rise over the distance MotionOptions::feather, and without
+/// Rescale::Area where a limit of volume excludes it: the area of noise is no area of the surface.
 /// @param scale of the mesh, or of a larger surface that it is part of.
-/// @param remarks gets a sentence if a region is less deep than it is feathered.
+/// @param remarks gets a sentence if a region is less deep than it is feathered, and if areas are not restored.
 /// @throws InputError if there is a feather or a length relative to the mesh, and the mesh is not valid or has no size
 ///         to measure by; OptionError for a radius R whose 1/R² no double can hold.
 MotionOptions resolved(MotionOptions motion, const PolygonMesh& mesh, LengthScale& scale, const Executor& exec,

@@ -91,7 +91,9 @@ enum class Junctions {
 /// Compensation for the shrinking of the surface.
 enum class Rescale {
     None,
-    /// Scales each component of every result to its area in the input, and moves its centroid to that in the input.
+    /// Scales each component of every result to its area in the input, and moves its centroid to that in the input. Not
+    /// where the volume is limited (see ComponentLimits), as where a run chooses how much to smooth: there noise has a
+    /// part of the area, and a remark says that it was not restored.
     Area,
     /// Scales each component of every result to its enclosed volume in the input, and moves its centroid to that in the
     /// input. For closed, consistently oriented surfaces.

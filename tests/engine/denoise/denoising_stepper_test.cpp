@@ -10,9 +10,11 @@
 #include <doctest/doctest.h>
 
 #include "engine/denoise.h"
+#include "engine/mean_curvature_flow.h"
 #include "engine/setup/presets.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
+#include "partition/metrics/volume.h"
 #include "samples/meshes/meshes.h"
 #include "samples/meshes/random_numbers.h"
 #include "solvers/laplacian/geometry.h"
@@ -313,4 +315,27 @@ TEST_CASE("the angle of edges that stay counts where there is little noise")
     CHECK(same_bits(denoised_positions(noisy, options), by_default));
     options.method = RemoveNoise{5.0};
     CHECK(!same_bits(denoised_positions(noisy, options), by_default));
+}
+
+TEST_CASE("the area of noise is not restored, and a remark says so; volumes are")
+{
+    const PolygonMesh noisy = make_noisy_sphere(2000, {.amplitude = 0.1, .noise = 0.1});
+    const DenoisedMesh plain = denoised(noisy, with_motion([](MotionOptions&) {}));
+    const DenoisedMesh of_area = denoised(noisy, with_motion([](MotionOptions& m) { m.rescale = Rescale::Area; }));
+    CHECK(same_bits(of_area.positions, plain.positions));
+    CHECK(test::names(of_area.report.remarks, "area not restored"));
+    CHECK_FALSE(test::names(plain.report.remarks, "area not restored"));
+    const DenoisedMesh of_volume = denoised(noisy, with_motion([](MotionOptions& m) { m.rescale = Rescale::Volume; }));
+    CHECK_FALSE(same_bits(of_volume.positions, plain.positions));
+    const auto volume = [&](const Points& positions) {
+        return volume_of_cones(noisy, positions, Point::Zero(), run_serially);
+    };
+    CHECK(std::abs(volume(of_volume.positions) / volume(noisy.vertices) - 1.0) < 1e-9);
+    // Where the amount is given, areas are restored.
+    PolygonMesh flowed = noisy;
+    FlowOptions options;
+    options.time_step_edges = 1.0;
+    options.motion.rescale = Rescale::Area;
+    const FlowReport report = mean_curvature_flow(flowed, options);
+    CHECK_FALSE(test::names(report.remarks, "area not restored"));
 }
