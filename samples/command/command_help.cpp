@@ -16,7 +16,7 @@ namespace seamflow {
 
 namespace {
 
-/// In the order of --help; options of no group come last.
+/// In the order of --help-all; options of no group come last.
 constexpr std::array<std::string_view, 9> groups{
     option_group::amount,     option_group::kind,    option_group::kept,
     option_group::fields,     option_group::written, option_group::accuracy,
@@ -58,7 +58,7 @@ std::string heading_of(const CLI::Option& option)
     return heading;
 }
 
-/// The line of the description in --help.
+/// The line of the description in --help-all.
 std::string first_line(const CLI::Option& option)
 {
     const std::string& text = option.get_description();
@@ -191,14 +191,30 @@ std::vector<const CLI::Option*> options_by_groups(const CLI::App& app)
     return list;
 }
 
-}  // namespace
-
-std::string help_text(const CLI::App& app)
+/// What stands before the options.
+std::string beginning_of_help(const CLI::App& app)
 {
     std::string text = fmt::format("{}\n\nUsage: {}\n", app.get_description(), usage_of(app));
     for (const CLI::Option* positional : positionals_of(app))
         text += line_of(positional->get_name(), first_line(*positional));
-    text += fmt::format("\nExamples:\n{}", with_indent(app.get_footer()));
+    return text + fmt::format("\nExamples:\n{}", with_indent(app.get_footer()));
+}
+
+}  // namespace
+
+std::string short_help_text(const CLI::App& app, std::span<const std::string_view> common)
+{
+    std::string text = beginning_of_help(app) + "\nOptions that most people need:\n";
+    for (const std::string_view name : common)
+        if (const CLI::Option* option = app.get_option_no_throw(std::string(name)); option != nullptr)
+            text += line_of(heading_of(*option), first_line(*option));
+    return text + fmt::format("\n{0}\n{1} --help-all lists all options; man {1} says more about each.\n", about_lengths,
+                              app.get_name());
+}
+
+std::string help_text(const CLI::App& app)
+{
+    std::string text = beginning_of_help(app);
     for (const std::string_view group : groups) {
         const auto options = options_of_group(app, group);
         if (options.empty())

@@ -118,12 +118,16 @@ CLI::Option* add_reader(CLI::App& app, const std::string& names, const TextReade
     return app.add_option_function<std::string>(names, store, description)->type_name(reader.type);
 }
 
-std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** argv)
+std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** argv,
+                                             std::span<const std::string_view> common)
 {
     app.option_defaults()->group("Options");
     app.set_version_flag("--version", fmt::format("seamflow {}\n{}", version, about_licence()));
-    app.formatter_fn(
-        [](const CLI::App* described, const std::string&, CLI::AppFormatMode) { return help_text(*described); });
+    app.set_help_all_flag("--help-all", "List all options and exit");
+    app.formatter_fn([common](const CLI::App* described, const std::string&, CLI::AppFormatMode mode) {
+        return common.empty() || mode == CLI::AppFormatMode::All ? help_text(*described)
+                                                                 : short_help_text(*described, common);
+    });
     if (const auto text = argc == 2 ? text_about(app, argv[1]) : std::nullopt) {
         std::cout << *text;
         return ExitStatus::Success;
@@ -135,7 +139,7 @@ std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** arg
         if (error.get_exit_code() == 0)
             return app.exit(error) == 0 ? ExitStatus::Success : ExitStatus::WrongUsage;
         const std::string surplus = complaint_of_surplus(app);
-        say_error(app.get_name(), (surplus.empty() ? error.what() : surplus) + " (--help lists all options)");
+        say_error(app.get_name(), (surplus.empty() ? error.what() : surplus) + " (--help-all lists all options)");
         return ExitStatus::WrongUsage;
     }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -67,7 +68,9 @@ CLI::Option* add_choice(CLI::App& app, const std::string& names, Option& target,
 std::string about_licence();
 
 /// Parses the command line.
+/// @param common the options that --help lists, if --help-all lists more; empty: both list all.
 /// @returns empty to continue, else how to end: Success after --help, WrongUsage, reported on standard error.
-std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** argv);
+std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** argv,
+                                             std::span<const std::string_view> common = {});
 
 }  // namespace seamflow

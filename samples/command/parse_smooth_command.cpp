@@ -1,5 +1,6 @@
 #include "samples/command/parse_smooth_command.h"
 
+#include <array>
 #include <iostream>
 #include <string_view>
 #include <vector>
@@ -145,7 +146,10 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     app.footer(program.examples.empty() ? smooth_examples() : program.examples);
     if (!program.approaches.empty())
         app.get_option("--approach")->description(program.approaches);
-    if (const auto end = parse_command_line(app, argc, argv))
+    static constexpr std::array<std::string_view, 12> common{"--radius",     "--within",   "--preset", "--rounded",
+                                                             "--keep-edges", "--boundary", "--fix",    "--region",
+                                                             "--direction",  "--report",   "--html",   "--threads"};
+    if (const auto end = parse_command_line(app, argc, argv, common))
         return end;
     command.program = program.name;
     command.arguments.assign(argv + 1, argv + argc);

@@ -215,7 +215,7 @@ TEST_CASE("sheets that meet flow unless they are to be held, and the report coun
     CHECK(w.json("report.json")["non_manifold_vertices"] == 5);
 }
 
-TEST_CASE("the manual page and what shells complete have every option that --help has")
+TEST_CASE("the manual page and what shells complete have every option that --help-all has")
 {
     const Workshop w;
     for (const std::string program : {SMOOTH, COMPARE, GENERATE, INSPECT}) {
@@ -225,7 +225,7 @@ TEST_CASE("the manual page and what shells complete have every option that --hel
         const std::string for_bash = w.said();
         REQUIRE(w.run(program + " --help-zsh") == 0);
         const std::string for_zsh = w.said();
-        REQUIRE(w.run(program + " --help") == 0);
+        REQUIRE(w.run(program + " --help-all") == 0);
         const std::string help = w.said();
         int n_options = 0;
         for (std::size_t begin = help.find(" --"); begin != std::string::npos; begin = help.find(" --", begin + 1)) {
@@ -258,7 +258,7 @@ TEST_CASE("the help has examples first, then a line for each option in the order
     const Workshop w;
     for (const std::string& program : test::all_programs()) {
         CAPTURE(program);
-        REQUIRE(w.run(program + " --help") == 0);
+        REQUIRE(w.run(program + " --help-all") == 0);
         const std::string help = w.said();
         std::istringstream lines(help);
         for (std::string line; std::getline(lines, line);) {
@@ -287,7 +287,7 @@ TEST_CASE("the help has examples first, then a line for each option in the order
         }
         CHECK(manual.find(std::string("\\fB\\&").append(name).append("\\fR(1)")) == std::string::npos);
     }
-    REQUIRE(w.run(SMOOTH " --help") == 0);
+    REQUIRE(w.run(SMOOTH " --help-all") == 0);
     const std::string help = w.said();
     std::size_t last = 0;
     for (const char* group : {"How much is smoothed", "What kind of mesh", "What stays", "What is written", "Accuracy",
@@ -305,6 +305,26 @@ TEST_CASE("the help has examples first, then a line for each option in the order
     CHECK(w.said().find("as much as there is noise, or") != std::string::npos);
 }
 
+TEST_CASE("the help of smooth fits a screen, and names what lists all options")
+{
+    const Workshop w;
+    REQUIRE(w.run(SMOOTH " --help-all") == 0);
+    const std::string all = w.said();
+    REQUIRE(w.run(SMOOTH " --help") == 0);
+    const std::string help = w.said();
+    CHECK(std::ranges::count(help, '\n') <= 32);
+    CHECK(help.find("smooth --help-all lists all options") != std::string::npos);
+    std::istringstream lines(help.substr(help.find("Options that most people need")));
+    int n_options = 0;
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with("  --")) {
+            CAPTURE(line);
+            ++n_options;
+            CHECK(all.find("\n" + line + "\n") != std::string::npos);
+        }
+    CHECK(n_options == 12);
+}
+
 TEST_CASE("the examples of the help are accepted as they stand")
 {
     const Workshop w;
@@ -312,7 +332,7 @@ TEST_CASE("the examples of the help are accepted as they stand")
     REQUIRE(w.run(GENERATE " noisy-sphere scan.ply --vertices 800") == 0);
     REQUIRE(w.run(GENERATE " gear part.stl --vertices 800") == 0);
     for (const std::string program : {SMOOTH, INSPECT, GENERATE}) {
-        REQUIRE(w.run(program + " --help") == 0);
+        REQUIRE(w.run(program + " --help-all") == 0);
         std::istringstream lines(w.said());
         int n = 0;
         for (std::string line; std::getline(lines, line);) {

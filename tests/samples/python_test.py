@@ -590,10 +590,10 @@ class Running(WithFolder):
 
 class Described(unittest.TestCase):
     def test_every_option_of_the_program(self):
-        text = subprocess.run([SMOOTH, "--help"], check=True, capture_output=True, text=True).stdout
+        text = subprocess.run([SMOOTH, "--help-all"], check=True, capture_output=True, text=True).stdout
         stub = (pathlib.Path(seamflow.__file__).parent / "__init__.pyi").read_text()
         compile(stub, "__init__.pyi", "exec")
-        of_files = {"help", "version", "every-step", "parts", "report", "csv", "trace", "task-graph", "html", "checkpoint"}
+        of_files = {"help", "help-all", "version", "every-step", "parts", "report", "csv", "trace", "task-graph", "html", "checkpoint"}
         of_files |= {"checkpoint-every", "quiet", "verbose", "fix", "fix-property", "attach-property", "keep-gaps"}
         of_files |= {"edges", "edges-from-file", "region-property"}
         # Of the functions for fields.
