@@ -1,10 +1,12 @@
 """The Python package, beside the programs: python3 python_test.py SMOOTH GENERATE, with the package on PYTHONPATH."""
 
+import copy
 import importlib.util
 import inspect
 import json
 import os
 import pathlib
+import pickle
 import signal
 import subprocess
 import sys
@@ -245,6 +247,11 @@ class SameBits(WithFolder):
             seamflow.Flow(V, F, radius="1%", progress=print)
         with self.assertRaisesRegex(TypeError, "did you mean radius"):
             seamflow.Flow(V, F, radios="1%")
+        for copied in (copy.copy, copy.deepcopy, pickle.dumps):
+            with self.assertRaisesRegex(TypeError, "a Flow cannot be copied or pickled"):
+                copied(flow)
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            flow.positions[0] = 0
         with seamflow.Flow(V, F, time_step_edges=1) as flow:
             flow.step()
             self.assertEqual(flow.n_steps, 1)
@@ -491,6 +498,12 @@ class WrongInput(unittest.TestCase):
             (ValueError, "F has to be whole numbers", (V, np.array(SIDES) + 0.5), {"radius": 1}),
             (ValueError, "face 1 .* list of whole numbers", (V, [[0, 1, 2], [0.5, 1, 2]]), {"radius": 1}),
             (ValueError, "F has to be whole numbers", (V, np.array(SIDES) * np.nan), {"radius": 1}),
+            (ValueError, rf"face 2 .* names vertex {2**64 - 1}, which no mesh has",
+             (V, np.array([[0, 1, 3], [0, 1, 2], [0, 2**64 - 1, 1]], np.uint64)), {"radius": 1}),
+            (ValueError, rf"face 1 .* names vertex {2**63}, which no mesh has",
+             (V, [np.array([0, 1, 3, 2], np.uint64), np.array([0, 2**63, 1], np.uint64)]), {"radius": 1}),
+            (ValueError, r"F has to have a face in each row, but is \(3, 12\), .* the mesh, 8: transpose F",
+             (V, np.array([[q[0], q[k], q[k + 1]] for q in SIDES for k in (1, 2)]).T), {"radius": 1}),
             (TypeError, "no keyword fix_property", (V, SIDES), {"fix_property": "a"}),
             (TypeError, "plain is True or False", (V, SIDES), {"plain": 1}),
             (TypeError, "radius is a number or a text", (V, SIDES), {"radius": [1]}),
@@ -562,6 +575,21 @@ class Running(WithFolder):
                 seamflow.smooth(self.V, self.F, time_step_edges=0.01, steps=1_000_000_000, **keywords)
             timer.join()
         seamflow.smooth(self.V, self.F, radius="1%")
+
+    def test_keyboard_interrupt_of_flow(self):
+        flow = seamflow.Flow(self.V, self.F, time_step_edges=0.01)
+        timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            flow.step(1_000_000_000)
+        timer.join()
+        taken = flow.n_steps
+        self.assertGreater(taken, 0)
+        flow.step()
+        self.assertEqual(flow.n_steps, taken + 1)
+        expected = seamflow.Flow(self.V, self.F, time_step_edges=0.01)
+        expected.step(taken + 1)
+        np.testing.assert_array_equal(flow.positions, expected.positions)
 
     def test_keyboard_interrupt_of_fields(self):
         timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))

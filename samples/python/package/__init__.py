@@ -86,7 +86,8 @@ class Flow:
     Between steps it keeps what the next one can use: with flow="linear" the factorisation, so that a step after the
     first is one solution. After `steps` steps the positions have the same bits as those of smooth(). The arguments are
     those of smooth() except progress; more steps than `steps` may be taken. Ctrl-C raises KeyboardInterrupt after the
-    steps that are being taken. `with seamflow.Flow(...) as flow:` frees its memory at the end of the block.
+    step that is being taken; the flow can go on. `with seamflow.Flow(...) as flow:` frees its memory at the end of the
+    block.
     """
 
     def __init__(self, V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=None, region=None,
@@ -103,6 +104,10 @@ class Flow:
     def __exit__(self, *_):
         self._begun = None
 
+    def __reduce_ex__(self, protocol):
+        raise TypeError("a Flow cannot be copied or pickled, as it holds factorisations: begin another one, from "
+                        "positions if it is to go on from here")
+
     @property
     def _flow(self):
         if self._begun is None:
@@ -113,7 +118,9 @@ class Flow:
         """Takes n steps. After an error no further step can be taken."""
         if not isinstance(n, (int, np.integer)) or n < 0:
             raise ValueError(f"n is {n!r}, but has to be a whole number of steps from 0")
-        self._flow.step(n)
+        # Signals are heard between steps.
+        for _ in range(n):
+            self._flow.step(1)
 
     def hold(self, vertices):
         """Holds vertices (a mask or numbers) where they are. This and the following need flow="linear" or
@@ -149,8 +156,11 @@ class Flow:
 
     @property
     def positions(self):
-        """A copy of the positions after the last step, (#V, 3), in the type of V (float32, or else float64)."""
-        return self._flow.positions().astype(np.float32 if self._single else np.float64, copy=False)
+        """The positions after the last step, (#V, 3), in the type of V (float32, or else float64). They cannot be
+        written, which would not move the flow: see move()."""
+        positions = self._flow.positions().astype(np.float32 if self._single else np.float64, copy=False)
+        positions.flags.writeable = False
+        return positions
 
     def report(self):
         """The dict of smooth() on the steps so far. Warns as smooth() does."""
@@ -256,6 +266,9 @@ def _arguments(V, F, options, fixed, labels, edges, attach_weights, region):
     V = np.asarray(V)
     if V.ndim != 2 or V.shape[1] != 3 or V.dtype.kind not in "fiu":
         raise ValueError(f"V has to be real numbers, (#V, 3), but is {V.dtype}, {V.shape}")
+    if isinstance(F, np.ndarray) and F.ndim == 2 and F.shape[1] > len(V) >= 3:
+        raise ValueError(f"F has to have a face in each row, but is {F.shape}, and a face has no more vertices than "
+                         f"the mesh, {len(V)}: transpose F")
     corners, offsets = _faces(F)
     if len(offsets) == 1 and len(V) > 0:
         raise ValueError("F has no faces: give one at least")
@@ -387,8 +400,13 @@ def _faces(F):
         if F.dtype.kind not in "iu":
             raise ValueError(f"F has to be whole numbers, but is {F.dtype}")
         offsets = np.arange(len(F) + 1, dtype=np.int64) * F.shape[1]
-    kind = np.int32 if F.dtype == np.int32 else np.int64
-    return np.ascontiguousarray(F, dtype=kind).reshape(-1), offsets
+    F = F.reshape(-1)
+    most = np.uint64(np.iinfo(np.int64).max)
+    if F.dtype.kind == "u" and F.size > 0 and F.max() > most:
+        corner = np.argmax(F > most)
+        face = np.searchsorted(offsets, corner, side="right") - 1
+        raise ValueError(f"F: face {face} (numbered from 0) names vertex {F[corner]}, which no mesh has")
+    return np.ascontiguousarray(F, dtype=np.int32 if F.dtype == np.int32 else np.int64), offsets
 
 
 def _array_of(name, value, count, kinds, described):
