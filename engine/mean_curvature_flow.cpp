@@ -46,16 +46,19 @@ class Flow::Session {
         guard_.run_checked([&] { workers_.execute([&] { action(*run_); }); });
     }
 
-    void step(int n, const StepObserver& on_step, const FlowReport& report)
+    /// @returns the number of steps taken until all are, or a stop is requested.
+    int step(int n, const std::stop_token& stop, const StepObserver& on_step, const FlowReport& report)
     {
+        int n_taken = 0;
         guard_.run([&] {
             workers_.execute([&] {
-                for (int i = 0; i < n; ++i)
+                for (; n_taken < n && !stop.stop_requested(); ++n_taken)
                     run_->take_step(on_step);
             });
         });
         if (std::ssize(report.steps) >= n_expected_)
             progress_.finish();
+        return n_taken;
     }
 
     void complete(FlowReport& report)
@@ -104,9 +107,9 @@ Flow::Flow(PolygonMesh& mesh, const FlowOptions& options, StepObserver on_step, 
 
 Flow::~Flow() = default;
 
-void Flow::step(int n)
+int Flow::step(int n, const std::stop_token& stop)
 {
-    session_->step(n, on_step_, report_);
+    return session_->step(n, stop, on_step_, report_);
 }
 
 void Flow::hold(std::span<const Index> vertices)

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <span>
+#include <stop_token>
 
 #include "engine/measure/flow_report.h"
 #include "engine/options/flow_control.h"
@@ -46,10 +47,13 @@ class Flow {
     ~Flow();
 
     /// Takes n steps; the mesh moves with each.
-    /// @param n at least 0.
-    /// @throws as mean_curvature_flow; the positions are then those of the last complete step, and any further call
-    ///         throws ComputationError.
-    void step(int n = 1);
+    /// @param n at least 0. @param stop ends the call, if a stop is requested, after the step that is being taken: then
+    /// nothing has failed, and the flow can go on with all that it has kept.
+    /// @returns the number of steps that were taken.
+    /// @throws as mean_curvature_flow, also where FlowControl::stop requests a stop; the positions are then those of
+    /// the
+    ///         last complete step, and any further call throws ComputationError.
+    int step(int n = 1, const std::stop_token& stop = {});
 
     /// The following functions change the flow between steps. The next step uses the change; only the sub-meshes that
     /// have the changed vertices are made anew. A changed flow has no state to resume from. Vertices joined along seams

@@ -1,4 +1,5 @@
 #include <memory>
+#include <stop_token>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -71,6 +72,31 @@ TEST_CASE("a flow goes on beyond the steps that were expected, also from a state
     rest.step(3);
     CHECK(same_bits(other.vertices, expected));
     CHECK(rest.report().steps.size() == 5);
+}
+
+TEST_CASE("a call that is stopped ends after its step, and the flow goes on as if nothing had happened")
+{
+    const PolygonMesh mesh = make_mixed_polygons(600);
+    for (const test::FlowKind& kind : test::flow_kinds(mean_edge_length(mesh))) {
+        CAPTURE(kind.name);
+        FlowOptions options = kind.options;
+        options.steps = 3;
+        PolygonMesh at_once = mesh;
+        const FlowReport expected = mean_curvature_flow(at_once, options);
+        PolygonMesh moved = mesh;
+        std::stop_source stop;
+        Flow flow(moved, options, [&](const StepState& state) {
+            if (state.step == 2)
+                stop.request_stop();
+        });
+        CHECK(flow.step(3, stop.get_token()) == 2);
+        CHECK(flow.n_steps() == 2);
+        CHECK(flow.step(3, stop.get_token()) == 0);
+        // Each call has a token of its own.
+        CHECK(flow.step(1, std::stop_source().get_token()) == 1);
+        CHECK(same_bits(moved.vertices, at_once.vertices));
+        CHECK(flow.report().remarks == expected.remarks);
+    }
 }
 
 TEST_CASE("a linear flow with a filter resumes with the same bits where single precision goes no further")
