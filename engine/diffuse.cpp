@@ -35,11 +35,11 @@ namespace {
 constexpr double time_to_rest = 1e6;
 
 /// The fraction of the wanted width by which the width that was reached may differ without a remark.
-constexpr double most_missed_width = 0.25;
-/// Kernels narrower than this many mean edge lengths are too narrow for a mesh.
-constexpr double narrowest_width = 4.0;
-/// With fewer steps than this a kernel is not like a Gaussian.
-constexpr int enough_steps = 10;
+constexpr double most_missed_width = 0.02;
+/// Of kernels narrower than this many mean edge lengths, edges hide a part.
+constexpr double narrowest_width = 10.0;
+/// The spectrum of fewer steps has no second moment (see time_for_fwhm).
+constexpr int enough_steps = 2;
 
 /// A mesh with the same vertices, and the faces whose vertices all have data, without unusable faces (see is_unusable).
 /// @param labels one per face, or empty: those of the remaining faces are kept.
@@ -258,7 +258,7 @@ void remark_on_width(double wanted, std::optional<double> reached, const Polygon
         return;
     const char* reason = "it is wide for this surface, or edges differ much in length";
     if (wanted < narrowest_width * mean_edge_length(surface))
-        reason = "it is less than four mean edge lengths, too narrow for this mesh";
+        reason = "it is less than ten mean edge lengths, narrow for this mesh";
     else if (steps < enough_steps)
         reason = "more steps come nearer";
     Remark::Numbers numbers{{"asked", wanted}};

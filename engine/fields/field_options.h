@@ -30,8 +30,7 @@ enum class Weights {
 /// The options that only fields have.
 struct FieldOptions {
     /// The amount of all steps together, in place of FlowOptions::time_step and radius: the full width at half maximum
-    /// of the Gaussian kernel of the heat equation at the time t = FWHM² / (16 ln 2) of all steps. Backward Euler steps
-    /// come near to it if there are several (see FieldReport::fwhm).
+    /// that white noise has after them (see time_for_fwhm). One step alone does not reach it (see FieldReport::fwhm).
     std::optional<LengthOnMesh> fwhm = {};
     /// Keeps edges of the fields: differences well above this diffuse little (see HeatEquation::keep_field_edges). All
     /// columns count together, as one vector per vertex. K is factorised in each step. Not with conjugate gradients.
@@ -51,12 +50,15 @@ struct FieldOptions {
     std::vector<std::string> names = {};
 };
 
-/// The time, in length², after which the Gaussian kernel has this full width at half maximum, in length:
-/// FWHM² / (16 ln 2).
-double time_for_fwhm(double fwhm);
+/// The time, in length², of m backward Euler steps together after which white noise is as smooth as after a Gaussian
+/// kernel with this full width at half maximum, in length. After the time t the heat equation has
+/// t = FWHM² / (16 ln 2). The spectrum of m steps, (1 + tk² / m)⁻ᵐ at the wave number k, has the second moment of a
+/// Gaussian after (m - 1) / m of the time, which is made up for. That of one step has none, and is left as it is.
+/// @param steps m; 0 for the heat equation itself.
+double time_for_fwhm(double fwhm, int steps);
 
-/// The full width at half maximum, in length, of the kernel after a time in length²: inverse of time_for_fwhm.
-double fwhm_for_time(double time);
+/// The full width at half maximum, in length, that white noise has after a time in length²: inverse of time_for_fwhm.
+double fwhm_for_time(double time, int steps);
 
 /// Options with the width in length.
 /// @throws InputError for a mesh that is not valid, or that has no size to measure by.

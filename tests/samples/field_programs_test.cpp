@@ -187,7 +187,7 @@ TEST_CASE("labels and other whole numbers are averaged and rounded with a remark
     for (Index f = 0; f < mesh.n_faces(); ++f)
         text += fmt::format("3 {} 0.5\n", fmt::join(mesh.face(f), " "));
     (void)w.directory.with("in.ply", text);
-    REQUIRE(w.smooth("in.ply out.ply --fields label,half,red --fwhm 10% --report report.json") == 0);
+    REQUIRE(w.smooth("in.ply out.ply --fields label,half,red --radius 5% --report report.json") == 0);
     const auto texts = [&] {
         std::vector<std::string> list;
         const test::Json report = w.json("report.json");
@@ -205,7 +205,7 @@ TEST_CASE("labels and other whole numbers are averaged and rounded with a remark
     for (const auto& [from, to] : {std::pair("int label", "float label"), std::pair("int half", "float half")})
         text.replace(text.find(from), std::string(from).size(), to);
     (void)w.directory.with("float.ply", text);
-    REQUIRE(w.smooth("float.ply out.ply --fields label,half --fwhm 10% --report report.json") == 0);
+    REQUIRE(w.smooth("float.ply out.ply --fields label,half --radius 5% --report report.json") == 0);
     CHECK(texts() == std::vector<std::string>{remarks[0]});
     CHECK(w.smooth("in.ply out.ply --fields quality --fwhm 2") == 3);
     CHECK(w.said().find("'quality' is a property of the faces, but fields are of the vertices") != std::string::npos);
@@ -224,10 +224,11 @@ TEST_CASE("--fwhm is a length or a part of the diagonal, over any number of step
     for (Index v = 0; v < vertices.rows(); ++v)
         if (v != 5)
             CHECK(after(v, 0) == relative(expected(v, 0), 1e-9));
-    // The same time in other steps, of which the width is told.
+    // The same time in other steps, of which the width is told: its square is as the part (m - 1) / m of the time.
     const double time = 3.0 * w.json("report.json")["time_step"].get<double>();
-    const std::string width = fmt::format(": a kernel {:.6g} wide at half its height", 0.08 * diagonal);
-    for (const int steps : {1, 3, 4}) {
+    for (const auto& [steps, part] : {std::pair(1, 1.0), std::pair(3, 2.0 / 3.0), std::pair(4, 3.0 / 4.0)}) {
+        const std::string width =
+            fmt::format(": a kernel {:.6g} wide at half its height", 0.08 * diagonal * std::sqrt(part / (2.0 / 3.0)));
         REQUIRE(w.smooth(fmt::format("in.ply out.ply --fields thickness --time-step {:.17g} --steps {}", time / steps,
                                      steps)) == 0);
         CHECK(w.said().find(width) != std::string::npos);
