@@ -297,8 +297,10 @@ void DenoisingStepper::report_to(DenoiseReport& report) const
     report.choices.push_back(
         {"noise",
          {{"edge lengths", report.noise->deviation}, {"part", noise_->part}},
-         {fmt::format("noise of {:.2g} edge lengths{}: removed; edges and details that it does not explain were kept",
-                      report.noise->deviation, where)}});
+         {fmt::format(
+             "noise of {:.2g} edge lengths ({:.2g}){}: removed; edges and details that it does not explain were "
+             "kept",
+             report.noise->deviation, noise_->deviation, where)}});
 }
 
 }  // namespace seamflow

@@ -131,7 +131,8 @@ void print_start(std::ostream& out, const RunRecord& run, std::int64_t n_vertice
     if (!run.preset.empty()) {
         out << "preset     " << run.preset;
         if (run.noise)
-            out << fmt::format(", for noise of {:.3g} mean edge lengths", *run.noise);
+            out << fmt::format(", for noise of {:.3g} mean edge lengths ({:.3g})", *run.noise,
+                               *run.noise * run.scale.mean_edge);
         out << ": " << run.chosen << std::endl;
     }
     out << "amount     ";
@@ -238,6 +239,13 @@ void print_remarks(std::ostream& out, const std::vector<RemarkInWords>& remarks)
         out << "remark     " << remark.text << '\n';
 }
 
+std::string moved_in_words(const LengthStatistics& moved, double mean_edge)
+{
+    const double edge = mean_edge > 0.0 ? mean_edge : 1.0;
+    return fmt::format("moved {:.3g} ({:.3g} mean edge lengths) on average, {:.3g} ({:.3g}) at most", moved.mean,
+                       moved.mean / edge, moved.max, moved.max / edge);
+}
+
 void print_result(std::ostream& out, const RunRecord& run, const SmoothReport& report)
 {
     print_choices(out, run.choices_in_words);
@@ -258,9 +266,7 @@ void print_result(std::ostream& out, const RunRecord& run, const SmoothReport& r
                            counted(static_cast<std::uint64_t>(*before.self_intersections), "pair", "pairs"),
                            *after.self_intersections);
     print_cells(out, before.cell_volumes, after.cell_volumes);
-    const double edge = run.scale.mean_edge > 0.0 ? run.scale.mean_edge : 1.0;
-    out << fmt::format("result     {}: moved {:.3g} mean edge lengths on average, {:.3g} at most; ", run.output,
-                       moved.mean / edge, moved.max / edge);
+    out << "result     " << run.output << ": " << moved_in_words(moved, run.scale.mean_edge) << "; ";
     if (before.roughness && after.roughness)
         out << "roughness " << change(before.roughness->rms, after.roughness->rms, 3) << " degrees, ";
     out << "area " << change(before.area, after.area, 6);

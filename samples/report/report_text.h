@@ -44,6 +44,10 @@ void print_choices(std::ostream& out, const std::vector<RemarkInWords>& choices)
 /// Prints a line for each remark.
 void print_remarks(std::ostream& out, const std::vector<RemarkInWords>& remarks);
 
+/// "moved 0.1 (0.2 mean edge lengths) on average, 1 (2) at most".
+/// @param moved, mean_edge in length.
+std::string moved_in_words(const LengthStatistics& moved, double mean_edge);
+
 /// Prints choices with reasons, remarks, time and memory, where the result is, and how it differs from the input.
 void print_result(std::ostream& out, const RunRecord& run, const SmoothReport& report);
 

@@ -87,14 +87,12 @@ void TileReport::print_result(double seconds, int threads, const MeshScale& scal
     if (has_remarks_on_steps_ && !command_.verbose)
         out_ << "remark     There are remarks on the steps of single files; --verbose lists them.\n";
     const LengthStatistics moved = moved_.statistics();
-    const double edge = scale.mean_edge > 0.0 ? scale.mean_edge : 1.0;
     out_ << fmt::format("result     {} in {}", counted(n_written_ + n_earlier_, "file", "files"),
                         command_.out_dir.string());
     if (n_earlier_ > 0)
         out_ << fmt::format(", {} of them by an earlier run", n_earlier_);
     if (n_written_ > 0)
-        out_ << fmt::format(": {}moved {:.3g} mean edge lengths on average, {:.3g} at most",
-                            n_earlier_ > 0 ? "the others " : "", moved.mean / edge, moved.max / edge);
+        out_ << ": " << (n_earlier_ > 0 ? "the others " : "") << moved_in_words(moved, scale.mean_edge);
     out_ << std::endl;
 }
 

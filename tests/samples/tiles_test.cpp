@@ -339,15 +339,23 @@ TEST_CASE("lengths in percent and filters of several files are those of the whol
     }
 }
 
-TEST_CASE("what is said of several files is in mean edge lengths, and counts steps and files that miss the tolerance")
+TEST_CASE(
+    "what is said of several files is in mean edge lengths, too, and counts steps and files that miss the tolerance")
 {
     const TiledWorkshop w("triangles", 2000, quarter);
     const auto moved = [&](const std::string& inputs) {
         REQUIRE(w.smooth(inputs + "--out-dir out --time-step-edges 3" + exact) == 0);
         const std::string said = w.said();
-        return said.substr(said.find("\nresult     4 files in out: moved "));
+        const auto begin = said.find("\nresult     4 files in out: moved ");
+        REQUIRE(begin != std::string::npos);
+        // Those in parentheses; before them they are in the unit of the files.
+        std::string in_edges;
+        for (auto at = said.find('(', begin); at != std::string::npos; at = said.find('(', at + 1))
+            in_edges += said.substr(at, said.find(')', at) + 1 - at);
+        return in_edges;
     };
     const std::string of_tiles = moved(w.inputs());
+    CHECK(of_tiles.find(" mean edge lengths)(") != std::string::npos);
     for (std::size_t i = 0; i < 4; ++i) {
         PolygonMesh large = w.tiles()[i].mesh;
         large.vertices *= 1024.0;
