@@ -1,9 +1,16 @@
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 
 #include "partition/metrics/volume.h"
+#include "samples/meshes/random_numbers.h"
+#include "tests/support/random_meshes.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"
 
@@ -78,4 +85,44 @@ TEST_CASE("half-edges of different edges do not cancel each other")
     for (const auto& face : {std::array<Index, 4>{0, 1, 2, 3}, {0, 2, 1, 3}})
         two_cycles.add_face(face);
     CHECK_FALSE(encloses_volume(two_cycles, run_serially));
+}
+
+TEST_CASE("a surface encloses a volume as counting its half-edges one by one says, in every numbering")
+{
+    // The faces along each edge, in one direction less those in the other.
+    const auto counted = [](const PolygonMesh& mesh) {
+        std::map<std::pair<Index, Index>, int> balance;
+        for (Index f = 0; f < mesh.n_faces(); ++f) {
+            Index from = mesh.face(f).back();
+            for (const Index to : mesh.face(f)) {
+                balance[std::minmax(from, to)] += from < to ? 1 : -1;
+                from = to;
+            }
+        }
+        return mesh.n_faces() > 0 && std::ranges::all_of(balance, [](const auto& edge) { return edge.second == 0; });
+    };
+    RandomNumbers random(65);
+    int n_enclosing = 0;
+    constexpr int n_meshes = 400;
+    for (int i = 0; i < n_meshes; ++i) {
+        PolygonMesh mesh = test::random_mesh(random).mesh;
+        // Of closed meshes, as they are, with a face turned, and without a face.
+        for (int change = 0; change < 3; ++change) {
+            if (change == 1)
+                mesh = with_face_turned(mesh, static_cast<Index>(random.unit() * mesh.n_faces()));
+            if (change == 2)
+                mesh = without_last_face(mesh);
+            const bool expected = counted(mesh);
+            n_enclosing += expected ? 1 : 0;
+            std::vector<Index> all(usize(mesh.n_faces()));
+            std::iota(all.begin(), all.end(), Index{0});
+            for (std::uint32_t numbering = 0; numbering < 3; ++numbering) {
+                CHECK(encloses_volume(mesh, run_serially) == expected);
+                CHECK(encloses_volume(mesh, all) == expected);
+                mesh = test::shuffled(mesh, numbering).mesh;
+            }
+        }
+    }
+    CHECK(n_enclosing > n_meshes / 8);
+    CHECK(n_enclosing < n_meshes);
 }
