@@ -158,9 +158,7 @@ void DenoisingStepper::remove_noise_of(const std::vector<Index>& faces, const st
     const std::vector<Index> with_faces =
         select(exec, mesh_->n_vertices(), [&](Index v) { return !topology_->corners_at(v).empty(); });
     // A vertex on a feature edge has a copy on each side of it.
-    std::ranges::sort(piece.vertices);
-    const auto copies = std::ranges::unique(piece.vertices);
-    piece.vertices.erase(copies.begin(), copies.end());
+    sort_unique(piece.vertices);
     noise_->part *= static_cast<double>(piece.vertices.size()) / static_cast<double>(with_faces.size());
 }
 
