@@ -13,9 +13,8 @@ namespace {
 constexpr double bends_less = 0.98;
 constexpr double bends_less_if_thin = 0.9;
 /// The fractions of their bending that thin vessels keep at least, where it is decided on edges, and where on smoothing
-/// once more. Vessels of radius 1.7 to 2.5, which keep 0.19 to 0.3 and have no edges that could be kept by mistake,
-/// become prisms when smoothed once more; folds and egg crates keep 0.08 to 0.15. Surfaces of marching cubes bend less
-/// from the start: there folds keep 0.3 to 0.45, vessels 0.6 and more.
+/// once more. Vessels of radius 1.7 to 2.5, which keep 0.19 to 0.3, would become prisms; folds and egg crates keep 0.08
+/// to 0.15. Surfaces of marching cubes bend less from the start: there folds keep 0.3 to 0.45, vessels 0.6 and more.
 constexpr double thin_in_voxels = 0.3;
 constexpr double smoothed_once_in_voxels = 0.18;
 constexpr double thin_in_marching_cubes = 0.5;
