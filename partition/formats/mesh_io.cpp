@@ -134,15 +134,17 @@ FileFormat recognised_format(std::string_view content)
     return word.ends_with("OFF") ? FileFormat::Off : FileFormat::Obj;
 }
 
-/// Refuses content that has the signature of another format than its file's extension names.
-void require_content_of(FileFormat format, const std::filesystem::path& path, std::string_view content)
+/// Says of content that cannot be read, and has the signature of another format than its file's extension names, that
+/// it has this format. OBJ has no signature, and .glb and .gltf may hold either form of glTF.
+/// @param found see recognised_format.
+void require_content_of(FileFormat format, FileFormat found, const std::filesystem::path& path)
 {
-    const FileFormat found = recognised_format(content);
-    // OBJ has no signature, and the header of a binary STL may hold any words.
-    if (found == format || found == FileFormat::Obj || (format == FileFormat::Stl && is_stl(content)))
+    if (found == FileFormat::Obj || traits_of(found).name == traits_of(format).name)
         return;
-    throw InputError(fmt::format("{}: this is no {} file, but has the format {}; give it the extension {}",
-                                 path.string(), traits_of(format).name, traits_of(found).name, extension_of(found)));
+    const char* const packed = path.extension() == ".gz" ? ".gz" : "";
+    throw InputError(fmt::format("{}: this is no {} file, but has the format {}; give it the extension {}{}",
+                                 path.string(), traits_of(format).name, traits_of(found).name, extension_of(found),
+                                 packed));
 }
 
 const Format& functions_of(FileFormat format)
@@ -161,23 +163,32 @@ MeshFile read_whole(OpenFile open, const InputFile& input, FileFormat format, co
     return file;
 }
 
+/// Reads a file that is open, of this format.
+MeshFile read_open(OpenFile open, const InputFile& input, FileFormat format, const Executor& exec, FaultLog* faults)
+{
+    if (const auto with_others = functions_of(format).with_others; with_others != nullptr)
+        if (auto all = with_others(open, input.content())) {
+            const InputFile content(*all);
+            return read_whole(std::move(*all), content, format, exec, faults);
+        }
+    return read_whole(std::move(open), input, format, exec, faults);
+}
+
 /// Finds the format and reads; a lack of memory is reported with the name of the file.
 MeshFile read(const std::filesystem::path& path, const Executor& exec, FaultLog* faults)
 {
-    std::optional<FileFormat> format = format_of_input(path);
+    const std::optional<FileFormat> named = format_of_input(path);
     try {
         OpenFile open(path);
         const InputFile input(open);
-        if (!format)
-            format = recognised_format(input.content());
-        else
-            require_content_of(*format, path, input.content());
-        if (const auto with_others = functions_of(*format).with_others; with_others != nullptr)
-            if (auto all = with_others(open, input.content())) {
-                const InputFile content(*all);
-                return read_whole(std::move(*all), content, *format, exec, faults);
-            }
-        return read_whole(std::move(open), input, *format, exec, faults);
+        const FileFormat found = recognised_format(input.content());
+        try {
+            return read_open(std::move(open), input, named.value_or(found), exec, faults);
+        } catch (const InputError&) {
+            if (named)
+                require_content_of(*named, found, path);
+            throw;
+        }
     } catch (const std::bad_alloc&) {
         throw ComputationError(path.string() +
                                ": there is not enough memory for this mesh; close other programs, raise "
