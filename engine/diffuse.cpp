@@ -35,9 +35,9 @@ namespace {
 constexpr double time_to_rest = 1e6;
 
 /// The fraction of the wanted width by which the width that was reached may differ without a remark.
-constexpr double most_missed_width = 0.02;
-/// Of kernels narrower than this many mean edge lengths, edges hide a part.
-constexpr double narrowest_width = 10.0;
+constexpr double most_missed_width = 0.1;
+/// Kernels narrower than this many mean edge lengths are too narrow for a mesh.
+constexpr double narrowest_width = 4.0;
 /// The spectrum of fewer steps has no second moment (see time_for_fwhm).
 constexpr int enough_steps = 2;
 
@@ -251,16 +251,20 @@ void add_filling(const FlowReport& of_fill, FlowReport& of_group, std::vector<Re
 }
 
 /// Adds a remark if the width that was reached is far from the wanted one.
-void remark_on_width(double wanted, std::optional<double> reached, const PolygonMesh& surface, int steps,
-                     std::vector<Remark>& remarks)
+void remark_on_width(double wanted, std::optional<double> reached, const PolygonMesh& surface,
+                     const FlowOptions& options, std::vector<Remark>& remarks)
 {
     if (reached && std::abs(*reached - wanted) <= most_missed_width * wanted)
         return;
     const char* reason = "it is wide for this surface, or edges differ much in length";
     if (wanted < narrowest_width * mean_edge_length(surface))
-        reason = "it is less than ten mean edge lengths, narrow for this mesh";
-    else if (steps < enough_steps)
+        reason = "it is less than four mean edge lengths, too narrow for this mesh";
+    else if (!filter_of(options).is_plain())
+        reason = "it is the width of the filter diffusion of order 1";
+    else if (options.steps < enough_steps)
         reason = "more steps come nearer";
+    else if (traits_of(options.laplacian).reach == Reach::Edges)
+        reason = "what this Laplacian does depends on the faces";
     Remark::Numbers numbers{{"asked", wanted}};
     if (reached)
         numbers.emplace_back("reached", *reached);
@@ -297,12 +301,17 @@ void take_steps(HeatEquation& heat, const FieldOptions& field_options, int steps
 /// Measures the width of the kernel by the same steps on white noise, which do not count as steps of the fields.
 /// @param wanted in length. @param of_group gets a remark, and the time.
 /// @returns nothing if the width cannot be measured.
-std::optional<double> measure_width(HeatEquation& heat, double wanted, int steps, FlowReport& of_group)
+std::optional<double> measure_width(HeatEquation& heat, double wanted, const FlowOptions& options, FlowReport& of_group)
 {
-    Eigen::MatrixXd noise = white_noise(heat.surface().n_vertices());
-    heat.take_steps(noise, steps);
+    // The width of a few columns on a small surface is a matter of chance.
+    constexpr Index values = 200'000;
+    constexpr Index fewest = 3;
+    constexpr Index most = 24;
+    const Index n = heat.surface().n_vertices();
+    Eigen::MatrixXd noise = white_noise(n, std::clamp(values / std::max(n, Index{1}), fewest, most));
+    heat.take_steps(noise, options.steps);
     const std::optional<double> fwhm = fwhm_of_noise(heat.surface(), noise);
-    remark_on_width(wanted, fwhm, heat.surface(), steps, of_group.remarks);
+    remark_on_width(wanted, fwhm, heat.surface(), options, of_group.remarks);
     of_group.seconds = heat.report().seconds;
     return fwhm;
 }
@@ -358,7 +367,7 @@ FieldReport diffuse(const PolygonMesh& mesh, Eigen::MatrixXd& fields, const Flow
                  {},
                  {"The whole mesh is solved at once by one factorisation: that is fastest for so many columns."}});
         if (measures)
-            report.fwhm = measure_width(heat, of_fields.fwhm->value, options.steps, of_group);
+            report.fwhm = measure_width(heat, of_fields.fwhm->value, of_flow, of_group);
         remarks.push_back(of_group.remarks);
         if (field_options.fill && group.n_lacking > 0 && group.n_lacking < mesh.n_vertices()) {
             const FlowReport of_fill = extend(mesh, group, of_flow, weights, control, exec, results, filled);

@@ -51,8 +51,7 @@ class Flow {
     /// nothing has failed, and the flow can go on with all that it has kept.
     /// @returns the number of steps that were taken.
     /// @throws as mean_curvature_flow, also where FlowControl::stop requests a stop; the positions are then those of
-    /// the
-    ///         last complete step, and any further call throws ComputationError.
+    ///         the last complete step, and any further call throws ComputationError.
     int step(int n = 1, const std::stop_token& stop = {});
 
     /// The following functions change the flow between steps. The next step uses the change; only the sub-meshes that

@@ -19,21 +19,21 @@ namespace seamflow {
 namespace {
 
 /// The time of the heat equation after which white noise is as smooth as after these steps, over the time of the steps.
-double part_of_time(int steps)
+double part_of_time(const FlowOptions& options)
 {
-    return steps > 1 ? (steps - 1.0) / steps : 1.0;
+    return options.steps > 1 && filter_of(options).is_plain() ? (options.steps - 1.0) / options.steps : 1.0;
 }
 
 }  // namespace
 
-double time_for_fwhm(double fwhm, int steps)
+double time_for_fwhm(double fwhm, const FlowOptions& options)
 {
-    return fwhm * fwhm / (16.0 * std::numbers::ln2) / part_of_time(steps);
+    return fwhm * fwhm / (16.0 * std::numbers::ln2) / part_of_time(options);
 }
 
-double fwhm_for_time(double time, int steps)
+double fwhm_for_time(double time, const FlowOptions& options)
 {
-    return std::sqrt(16.0 * std::numbers::ln2 * time * part_of_time(steps));
+    return std::sqrt(16.0 * std::numbers::ln2 * time * part_of_time(options));
 }
 
 namespace {
@@ -118,7 +118,7 @@ FlowOptions flow_for_fields(const FlowOptions& options, const FieldOptions& of_f
     own.motion.boundary = of_fields.boundary;
     own.report = {.record_schedule = options.report.record_schedule, .measures = false};
     if (of_fields.fwhm)
-        own.time_step = time_for_fwhm(of_fields.fwhm->value, options.steps) / std::max(options.steps, 1);
+        own.time_step = time_for_fwhm(of_fields.fwhm->value, options) / std::max(options.steps, 1);
     if (!own.accuracy.tolerance && own.accuracy.approach != Approach::Undecomposed)
         own.accuracy.tolerance = default_field_tolerance;
     return own;

@@ -30,7 +30,9 @@ enum class Weights {
 /// The options that only fields have.
 struct FieldOptions {
     /// The amount of all steps together, in place of FlowOptions::time_step and radius: the full width at half maximum
-    /// that white noise has after them (see time_for_fwhm). One step alone does not reach it (see FieldReport::fwhm).
+    /// that white noise has after them (see time_for_fwhm). What is reached on the mesh is measured (see
+    /// FieldReport::fwhm): a few hundredths less, and much less after one step, with other filters, and on surfaces
+    /// that are only a few widths wide.
     std::optional<LengthOnMesh> fwhm = {};
     /// Keeps edges of the fields: differences well above this diffuse little (see HeatEquation::keep_field_edges). All
     /// columns count together, as one vector per vertex. K is factorised in each step. Not with conjugate gradients.
@@ -52,13 +54,14 @@ struct FieldOptions {
 
 /// The time, in length², of m backward Euler steps together after which white noise is as smooth as after a Gaussian
 /// kernel with this full width at half maximum, in length. After the time t the heat equation has
-/// t = FWHM² / (16 ln 2). The spectrum of m steps, (1 + tk² / m)⁻ᵐ at the wave number k, has the second moment of a
-/// Gaussian after (m - 1) / m of the time, which is made up for. That of one step has none, and is left as it is.
-/// @param steps m; 0 for the heat equation itself.
-double time_for_fwhm(double fwhm, int steps);
+/// t = FWHM² / (16 ln 2). The power spectrum of m steps, (1 + tk² / m)⁻²ᵐ at the wave number k, has the second moment
+/// that the heat equation has after (m - 1) / m of the time, which is made up for. That of one step has none; it and
+/// other filters than diffusion of order 1 get the time of the heat equation.
+/// @param options their steps and filter count.
+double time_for_fwhm(double fwhm, const FlowOptions& options);
 
 /// The full width at half maximum, in length, that white noise has after a time in length²: inverse of time_for_fwhm.
-double fwhm_for_time(double time, int steps);
+double fwhm_for_time(double time, const FlowOptions& options);
 
 /// Options with the width in length.
 /// @throws InputError for a mesh that is not valid, or that has no size to measure by.

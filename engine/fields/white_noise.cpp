@@ -37,12 +37,12 @@ struct NoiseSums {
 
 }  // namespace
 
-Eigen::MatrixXd white_noise(Index n_vertices)
+Eigen::MatrixXd white_noise(Index n_vertices, Eigen::Index n_columns)
 {
-    Eigen::MatrixXd noise(n_vertices, 3);
+    Eigen::MatrixXd noise(n_vertices, n_columns);
     for (Eigen::Index c = 0; c < noise.cols(); ++c)
         for (Eigen::Index v = 0; v < noise.rows(); ++v)
-            noise(v, c) = uniform(static_cast<std::uint64_t>(3 * v + c));
+            noise(v, c) = uniform(static_cast<std::uint64_t>(n_columns * v + c));
     return noise;
 }
 
@@ -67,12 +67,12 @@ std::optional<double> fwhm_of_noise(const PolygonMesh& mesh, const Eigen::Matrix
                 v = w;
             }
         }
-        // Forman and others: FWHM = l √(-2 ln 2 / ln ρ), with the mean length l of edges and the correlation ρ along
-        // them.
+        // Forman and others: FWHM = l √(-2 ln 2 / ln ρ), with the length l of edges and the correlation ρ along them.
+        // Where lengths differ it is their root mean square, because differences grow with the length.
         const double correlation = 1.0 - differences.squared / differences.n / (2.0 * values.variance());
         if (!(correlation > 0.0 && correlation < 1.0))
             return std::nullopt;
-        sum += lengths.mean() * std::sqrt(-2.0 * std::numbers::ln2 / std::log(correlation));
+        sum += std::sqrt(lengths.squared / lengths.n) * std::sqrt(-2.0 * std::numbers::ln2 / std::log(correlation));
     }
     return sum / static_cast<double>(noise.cols());
 }

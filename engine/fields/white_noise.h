@@ -9,8 +9,8 @@
 /// The width of a diffusion, measured by its effect on white noise.
 namespace seamflow {
 
-/// #V by 3: independent numbers of variance 1, the same on every machine.
-Eigen::MatrixXd white_noise(Index n_vertices);
+/// #V by n: independent numbers of variance 1, the same on every machine.
+Eigen::MatrixXd white_noise(Index n_vertices, Eigen::Index n_columns = 3);
 
 /// The full width at half maximum, in length, of the Gaussian kernel that makes white noise as smooth as `noise`: from
 /// the variance of the values and the variance of their differences along edges (Forman and others 1995; Hagler, Saygin

@@ -81,8 +81,8 @@ MotionOptions resolved(MotionOptions motion, const PolygonMesh& mesh, LengthScal
     if (restores_area_of_noise(motion))
         remarks.push_back({"area not restored",
                            {},
-                           {"The area was not restored: noise has a part of it, with which the surface would be blown "
-                            "up. <rescale volume> restores volumes."}});
+                           {"The area was not restored, because volumes are to stay nearly as they are: with the area "
+                            "of its noise the surface would be blown up. <rescale volume> restores volumes."}});
     MotionOptions own = with_lengths(std::move(motion), scale);
     if (own.feather) {
         require_valid(mesh, exec);

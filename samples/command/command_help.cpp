@@ -208,8 +208,9 @@ std::string short_help_text(const CLI::App& app, std::span<const std::string_vie
     for (const std::string_view name : common)
         if (const CLI::Option* option = app.get_option_no_throw(std::string(name)); option != nullptr)
             text += line_of(heading_of(*option), first_line(*option));
-    return text + fmt::format("\n{0}\n{1} --help-all lists all options; man {1} says more about each.\n", about_lengths,
-                              app.get_name());
+    return text +
+           fmt::format("\n{0}\n{1} --help-all lists all options; man {1}, or {1} --help-man | man -l -, says more.\n",
+                       about_lengths, app.get_name());
 }
 
 std::string help_text(const CLI::App& app)

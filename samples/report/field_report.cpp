@@ -90,9 +90,9 @@ void print_field_amount(std::ostream& out, const MeshScale& scale, const FlowOpt
                        options.time_step);
     const double time = options.time_step * options.steps;
     const bool is_of_surface = traits_of(options.laplacian).reach != Reach::Edges;
-    if (filter_of(options).is_plain() && options.steps > 0 && is_of_surface)
-        out << fmt::format(": a kernel {:.6g} wide at half its height",
-                           of_fields.fwhm ? of_fields.fwhm->value : fwhm_for_time(time, options.steps));
+    if (filter_of(options).is_plain() && options.steps > 1 && is_of_surface)
+        out << fmt::format(": white noise becomes {:.6g} wide at half its height",
+                           of_fields.fwhm ? of_fields.fwhm->value : fwhm_for_time(time, options));
     if (of_fields.keep_edges)
         out << fmt::format(", differences above {:g} kept", *of_fields.keep_edges);
     out << std::endl;

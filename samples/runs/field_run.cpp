@@ -84,7 +84,7 @@ void resolve_field_amount(SmoothCommand& command, const PolygonMesh& mesh, const
     FieldOptions& options = command.fields.options;
     options = resolved(std::move(options), scale);
     if (options.fwhm)
-        of_flow.time_step = time_for_fwhm(options.fwhm->value, of_flow.steps) / std::max(of_flow.steps, 1);
+        of_flow.time_step = time_for_fwhm(options.fwhm->value, of_flow) / std::max(of_flow.steps, 1);
 }
 
 /// A sentence on numbers that may be names of things: few different whole ones, whatever their type. Of two neighbours

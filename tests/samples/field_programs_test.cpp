@@ -226,9 +226,9 @@ TEST_CASE("--fwhm is a length or a part of the diagonal, over any number of step
             CHECK(after(v, 0) == relative(expected(v, 0), 1e-9));
     // The same time in other steps, of which the width is told: its square is as the part (m - 1) / m of the time.
     const double time = 3.0 * w.json("report.json")["time_step"].get<double>();
-    for (const auto& [steps, part] : {std::pair(1, 1.0), std::pair(3, 2.0 / 3.0), std::pair(4, 3.0 / 4.0)}) {
-        const std::string width =
-            fmt::format(": a kernel {:.6g} wide at half its height", 0.08 * diagonal * std::sqrt(part / (2.0 / 3.0)));
+    for (const auto& [steps, part] : {std::pair(2, 1.0 / 2.0), std::pair(3, 2.0 / 3.0), std::pair(4, 3.0 / 4.0)}) {
+        const std::string width = fmt::format(": white noise becomes {:.6g} wide at half its height",
+                                              0.08 * diagonal * std::sqrt(part / (2.0 / 3.0)));
         REQUIRE(w.smooth(fmt::format("in.ply out.ply --fields thickness --time-step {:.17g} --steps {}", time / steps,
                                      steps)) == 0);
         CHECK(w.said().find(width) != std::string::npos);

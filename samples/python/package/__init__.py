@@ -118,9 +118,10 @@ class Flow:
         """Takes n steps. After an error no further step can be taken."""
         if not isinstance(n, (int, np.integer)) or n < 0:
             raise ValueError(f"n is {n!r}, but has to be a whole number of steps from 0")
+        flow = self._flow
         # Signals are heard between steps.
         for _ in range(n):
-            self._flow.step(1)
+            flow.step(1)
 
     def hold(self, vertices):
         """Holds vertices (a mask or numbers) where they are. This and the following need flow="linear" or
@@ -382,6 +383,17 @@ def _whole(array):
     return array
 
 
+def _signed(corners, face_of):
+    """Corners without a sign, of 64 bits, with one; all else as it is. face_of(i): the face of corner i."""
+    if corners.dtype != np.uint64:
+        return corners
+    beyond = np.flatnonzero(corners > np.uint64(np.iinfo(np.int64).max))
+    if beyond.size > 0:
+        raise ValueError(f"F: face {face_of(beyond[0])} (numbered from 0) names vertex {corners[beyond[0]]}, which no "
+                         "mesh has")
+    return corners.astype(np.int64)
+
+
 def _faces(F):
     """The corners of all faces one after the other, and where those of each begin, and the last ends."""
     if not isinstance(F, np.ndarray) or F.ndim != 2:
@@ -392,6 +404,7 @@ def _faces(F):
             face = polygons[f] = _whole(face)
             if face.ndim != 1 or (face.size > 0 and face.dtype.kind not in "iu"):
                 raise ValueError(f"face {f} (numbered from 0) has to be a list of whole numbers, its vertices")
+            polygons[f] = _signed(face, lambda _, f=f: f)
         offsets = np.zeros(len(polygons) + 1, np.int64)
         np.cumsum([len(face) for face in polygons], out=offsets[1:])
         F = np.concatenate(polygons)
@@ -400,12 +413,7 @@ def _faces(F):
         if F.dtype.kind not in "iu":
             raise ValueError(f"F has to be whole numbers, but is {F.dtype}")
         offsets = np.arange(len(F) + 1, dtype=np.int64) * F.shape[1]
-    F = F.reshape(-1)
-    most = np.uint64(np.iinfo(np.int64).max)
-    if F.dtype.kind == "u" and F.size > 0 and F.max() > most:
-        corner = np.argmax(F > most)
-        face = np.searchsorted(offsets, corner, side="right") - 1
-        raise ValueError(f"F: face {face} (numbered from 0) names vertex {F[corner]}, which no mesh has")
+    F = _signed(F.reshape(-1), lambda corner: np.searchsorted(offsets, corner, side="right") - 1)
     return np.ascontiguousarray(F, dtype=np.int32 if F.dtype == np.int32 else np.int64), offsets
 
 
