@@ -59,10 +59,10 @@ Evidence evidence_for(const CoordinateBounds& bounds)
         // clean 0.999 and more is left, with noise of half a step 0.57 and more near]
         if (bounds.steps.maxCoeff() < fine * bounds.edge)
             return {.near = 0.9, .weight = 0.0, .most = 0.0, .few = 0.56, .most_with_few = 0.9};
-        // [0.09 to 0.364; 0.37 to 1.3]. Thin vessels and small balls keep 0.3 to 0.53, with 0.18 to 0.33 near bounds
-        // and 0.44 to 0.6 at corners. Of shapes of blocks that keep as little, at most 0.32 are, but for single blocks
-        // that touch at edges and corners, which keep 0.8.
-        return {.near = 0.9, .weight = 0.6, .most = 0.3675, .few = 0.35, .most_with_few = 0.55, .corners = 0.4};
+        // [0.09 to 0.364; 0.37 to 1.3]. Thin vessels and small balls keep 0.3 to 0.53, with 0.18 to 0.33 near bounds,
+        // or 0.42 where they are cut off, and 0.44 to 0.6 at corners. Of shapes of blocks that keep as little, at most
+        // 0.32 are, but for single blocks that touch at edges and corners, which keep 0.8.
+        return {.near = 0.9, .weight = 0.6, .most = 0.3675, .few = 0.45, .most_with_few = 0.55, .corners = 0.4};
     }
 }
 

@@ -147,7 +147,11 @@ TEST_CASE("shapes of blocks, noise and exact surfaces are not taken for rounded"
         return std::fmod(x, 30.0) < 4.0 || std::fmod(y, 45.0) < 4.0 ? 1.0 : 0.0;
     };
     const auto disc = [](double x, double y) { return std::hypot(x - 30.0, y - 30.0) < 20.0 ? 5.0 : 0.0; };
+    const Inside diagonal_of_pixels = [](const Point& point) {
+        return std::abs(point.z()) < 1.0 && std::abs(point.x()) < 11.0 && std::abs(point.x() - point.y()) < 1.5;
+    };
     const std::vector<std::pair<std::string, PolygonMesh>> meshes{
+        {"diagonal of pixels", voxel_faces(diagonal_of_pixels, 26)},
         {"box", voxel_faces(box(Point(10.0, 7.0, 6.0)), 24)},
         {"box, marching cubes", crossed_edges(box(Point(10.0, 7.0, 6.0)), 24)},
         {"steps 1 by 1", voxel_faces(stepped_pyramid(1.0, 1.0), 26)},
@@ -200,6 +204,14 @@ TEST_CASE("thin vessels of voxels become round, and bars of blocks with grooves 
         }
         // 9 and 4 are measured, 42 before.
         CHECK(180.0 / std::numbers::pi * total / mesh.n_faces() < 8.0 / radius + 4.0);
+        // The same, cut off.
+        PolygonMesh open;
+        open.vertices = mesh.vertices;
+        for (Index f = 0; f < mesh.n_faces(); ++f)
+            if (mesh.vertices(mesh.face(f).front(), 0) < 7.0)
+                open.add_face(mesh.face(f));
+        CHECK(open.n_faces() < mesh.n_faces() - 50);
+        CHECK(smoothed(open));
     }
     const Inside grooved = [](const Point& point) {
         const double width = std::fmod(std::floor(point.z()) + 20.0, 10.0) < 5.0 ? 5.0 : 4.0;
