@@ -18,15 +18,18 @@ namespace {
 struct Evidence {
     /// A vertex is near a bound if it has moved by this fraction of its half-width.
     double near;
+    /// The weight and the limit of the sum.
     double weight;
     double most;
+    /// The fraction of vertices near bounds that is few, and the limit of bending with it.
     double few;
     double most_with_few;
     /// The fraction of vertices at corners of voxels that the second limit needs.
     double corners = 0.0;
 
-    /// @param bending the fraction that is left. @param fraction of the vertices that are near a bound. Where true
-    /// places lie anywhere between the bounds, as those of heights do, 1 - near of them are.
+    /// Whether the sum is small enough. @param bending the fraction that is left. @param fraction of the vertices that
+    /// are near a bound. Where true places lie anywhere between the bounds, as those of heights do, 1 - near of them
+    /// are.
     [[nodiscard]] bool explains(double bending, double fraction) const
     {
         return bending + weight * std::max(fraction - (1.0 - near), 0.0) <= most;
@@ -163,10 +166,9 @@ std::vector<std::uint8_t> parts_explained_by_rounding(const SurfaceParts& parts,
     const Evidence evidence = evidence_for(bounds);
     const std::vector<double> before = parts.bending(boxes, boxes.middles, exec);
     const std::vector<double> after = parts.bending(boxes, positions, exec);
-    const std::vector<double> near = fractions_with(parts, n_vertices, [&](Index v) {
-        // Nothing shows that bounds suffice where no vertex has whole ones.
-        return is_near_bound(boxes, bounds.steps, evidence.near, positions, v);
-    });
+    // 1 where no vertex has whole bounds: nothing shows that they suffice.
+    const std::vector<double> near = fractions_with(
+        parts, n_vertices, [&](Index v) { return is_near_bound(boxes, bounds.steps, evidence.near, positions, v); });
     // Diagonals of the faces of voxels bend only once these are smooth: 1.14 to 1.32 times as much for vessels.
     constexpr double bending_of_diagonals = 1.2;
     const PolygonMesh& mesh = parts.mesh();

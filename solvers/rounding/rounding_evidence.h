@@ -15,7 +15,7 @@ namespace seamflow {
 /// smooth within half a step, while only few vertices are at their bounds. Thin vessels cannot bend much less; they are
 /// known by the corners of voxels, of which shapes that are made of blocks have few.
 /// @param boxes around the rounded positions. @param positions #V by 3: smooth, in the boxes.
-/// @param knows_vessels whether thin vessels are looked for.
+/// @param knows_vessels whether thin vessels are looked for in faces of voxels; in marching cubes they always are.
 /// @returns per part: 1 if rounding explains its roughness.
 std::vector<std::uint8_t> parts_explained_by_rounding(const SurfaceParts& parts, const CoordinateBounds& bounds,
                                                       const Boxes& boxes, const Points& positions, bool knows_vessels,
